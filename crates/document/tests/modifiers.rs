@@ -242,7 +242,9 @@ impl Session {
                 true
             }
             Modifier::Weld(settings) => self.merge(settings.distance),
-            Modifier::Solidify(_) | Modifier::Decimate(_) | Modifier::Screw(_) => false,
+            Modifier::Solidify(_) | Modifier::Decimate(_) | Modifier::Screw(_) | Modifier::Boolean(_) => {
+                false
+            }
             Modifier::Triangulate(settings) => {
                 let is_large = |&face: &_| self.mesh().face_size(face) >= settings.least_corners as usize;
                 let faces: Vec<u32> = self.mesh().faces().filter(is_large).map(|face| face.index()).collect();
@@ -261,7 +263,10 @@ impl Session {
 
 /// Whether a command does the same with elements.
 fn has_command(modifier: &Modifier) -> bool {
-    !matches!(modifier, Modifier::Solidify(_) | Modifier::Decimate(_) | Modifier::Screw(_))
+    !matches!(
+        modifier,
+        Modifier::Solidify(_) | Modifier::Decimate(_) | Modifier::Screw(_) | Modifier::Boolean(_)
+    )
 }
 
 /// Compares what is shown now with what is made in both ways. Returns how many modifiers were shown.
@@ -318,4 +323,72 @@ fn stacks_give_what_commands_give_after_any_edits_and_undos() {
         }
     }
     assert!(shown > 500, "a test of empty stacks would show nothing: {shown} modifiers");
+}
+
+/// The volume that a view shows of the mesh of an object.
+fn shown_volume(document: &mut Document, name: &str) -> f64 {
+    let scene = document.scene_to_render();
+    let (_, node) = scene.nodes().iter().find(|(_, node)| node.name == name).expect("it is there");
+    let mesh = scene.meshes().get(node.mesh.expect("it has one")).expect("it is in the scene").mesh();
+    EditMesh::from_mesh(mesh).0.volume()
+}
+
+fn run(document: &mut Document, json: Value) {
+    let command = serde_json::from_value(json.clone()).expect("a command");
+    document.run(command).unwrap_or_else(|error| panic!("{json}: {error}"));
+}
+
+#[test]
+fn a_boolean_follows_the_other_object() {
+    let mut scene = Scene::new();
+    scene.add_object("body", primitives::cube(2.0), Material::default());
+    scene.add_object("drill", primitives::cube(1.0), Material::default());
+    let mut document = Document::new(scene);
+    let drilled = 8.0 - 0.5;
+    let is_near = |volume: f64, expected: f64| (volume - expected).abs() < 1e-6;
+    run(&mut document, json!({ "op": "select", "objects": ["drill"] }));
+    run(&mut document, json!({ "op": "translate", "offset": [0, 1, 0] }));
+    let boolean = json!({ "kind": "boolean", "object": "drill" });
+    run(&mut document, json!({ "op": "add_modifier", "object": "body", "modifier": boolean }));
+    assert!(is_near(shown_volume(&mut document, "body"), drilled), "a hole from above");
+    run(&mut document, json!({ "op": "translate", "offset": [0, 1, 0] }));
+    assert!(is_near(shown_volume(&mut document, "body"), 8.0), "the drill is away");
+    document.undo().expect("the move");
+    assert!(is_near(shown_volume(&mut document, "body"), drilled), "it is back");
+    run(&mut document, json!({ "op": "rename_object", "object": "drill", "name": "tool" }));
+    run(
+        &mut document,
+        json!({ "op": "add_modifier", "object": "tool", "modifier": { "kind": "array", "relative_offset": [0, -1, 0] } }),
+    );
+    assert!(is_near(shown_volume(&mut document, "body"), 8.0 - 1.5), "a longer drill of another name");
+    let bytes = document.to_native().encode().expect("it is small").to_bytes();
+    let options = trigon_io::LoadOptions::default();
+    let (mut again, warnings) =
+        Document::open_bytes("a.glb".as_ref(), &bytes, &options).expect("it is whole");
+    assert_eq!(warnings, []);
+    assert!(is_near(shown_volume(&mut again, "body"), 8.0 - 1.5), "saved with names");
+    run(&mut document, json!({ "op": "apply_modifier", "object": "body" }));
+    run(&mut document, json!({ "op": "delete_objects" }));
+    assert!(is_near(shown_volume(&mut document, "body"), 8.0 - 1.5), "the hole stays");
+    document.undo().expect("the deletion");
+    document.undo().expect("the hole");
+    run(&mut document, json!({ "op": "delete_objects" }));
+    assert!(is_near(shown_volume(&mut document, "body"), 8.0), "without a drill there is no hole");
+}
+
+#[test]
+fn copies_stand_to_each_other_as_another_object_to_the_mesh() {
+    let mut scene = Scene::new();
+    scene.add_object("post", primitives::cube(1.0), Material::default());
+    let mut document = Document::new(scene);
+    run(&mut document, json!({ "op": "add_empty", "name": "step" }));
+    run(&mut document, json!({ "op": "set_transform", "location": [2, 0, 0], "scale": [2, 2, 2] }));
+    let array = json!({ "kind": "array", "count": 3, "relative_offset": [0, 0, 0], "object": "step" });
+    run(&mut document, json!({ "op": "add_modifier", "object": "post", "modifier": array }));
+    // Each copy is twice as large as the one before: 1, 8 and 64 cubic metres.
+    assert!((shown_volume(&mut document, "post") - 73.0).abs() < 1e-4, "three cubes");
+    run(&mut document, json!({ "op": "set_transform", "scale": [1, 1, 1] }));
+    assert!((shown_volume(&mut document, "post") - 3.0).abs() < 1e-4, "of one size");
+    let scene = document.scene_to_render();
+    assert!((scene.bounds().max.x - 4.5).abs() < 1e-6, "0, 2 and 4 m away: {:?}", scene.bounds());
 }

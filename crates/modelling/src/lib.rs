@@ -53,12 +53,13 @@ pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
 pub use modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, DecimateModifier, MirrorModifier, Modifier, ScrewModifier,
-    SolidifyModifier, StackedModifier, SubdivisionModifier, TriangulateModifier, WeldModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, BooleanOperation, DecimateModifier,
+    MirrorModifier, Modifier, ScrewModifier, SolidifyModifier, StackedModifier, SubdivisionModifier,
+    TriangulateModifier, WeldModifier,
 };
 pub use operations::*;
 pub use refusal::{Refusal, SolidFault};
-pub use stack::{Evaluation, ModifierState};
+pub use stack::{Evaluation, ModifierObjects, ModifierState, NoObjects, ObjectState};
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
 

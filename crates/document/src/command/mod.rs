@@ -81,9 +81,9 @@ pub use transform::{
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
-    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, DecimateModifier, InnerMiter, MirrorModifier,
-    Modifier, OuterMiter, ScrewModifier, SolidifyModifier, SubdivisionModifier, TriangulateModifier,
-    UnwrapMethod, WeldModifier,
+    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation,
+    DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, ScrewModifier, SolidifyModifier,
+    SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 

@@ -9,6 +9,7 @@ use super::action::{remake, whole_meshes};
 use super::set_transform::named_or_active;
 use super::{Action, ObjectName, Outcome};
 use crate::error::EditError;
+use crate::objects::UsedObject;
 use crate::state::Change;
 
 const STACK: &str = "a modifier";
@@ -185,7 +186,9 @@ fn apply(change: &mut Change<'_>, id: MeshId, index: usize) -> Result<(usize, Op
             "{name}: applied before the modifiers above it, so that the result may differ from what was shown"
         )
     });
-    Ok((remake(change, id, |mesh| Ok(mesh.apply_modifier(index)?))?, warning))
+    let modifier = modifiers.get(index).map(|stacked| stacked.modifier.clone());
+    let objects = modifier.map_or_else(UsedObject::default, |modifier| change.objects_of(id, &modifier));
+    Ok((remake(change, id, |mesh| Ok(mesh.apply_modifier(index, &objects)?))?, warning))
 }
 
 /// Shows meshes as their Catmull-Clark surfaces, while their own elements, the cage, go on to be edited: the meshes that
@@ -278,4 +281,26 @@ impl Action for ApplySubdivision {
         }
         Ok(Outcome { warnings, ..Outcome::counted("made", faces, ["face", "faces"]) })
     }
+}
+
+/// Lets modifiers go on using an object that got another name.
+pub(super) fn rename_in_modifiers(
+    change: &mut Change<'_>,
+    before: &str,
+    name: &str,
+) -> Result<(), EditError> {
+    let is_used =
+        |mesh: &EditMesh| mesh.modifiers().iter().any(|stacked| stacked.modifier.object() == Some(before));
+    for id in change.edited_where(is_used) {
+        change.edit(id, |mesh| {
+            let mut modifiers = mesh.modifiers().to_vec();
+            for stacked in &mut modifiers {
+                if stacked.modifier.object() == Some(before) {
+                    stacked.modifier.set_object(name);
+                }
+            }
+            Ok(mesh.set_modifiers(modifiers)?)
+        })?;
+    }
+    Ok(())
 }

@@ -23,8 +23,8 @@ impl Document {
     pub fn scene_to_render(&mut self) -> Scene {
         let mut scene = self.scene().clone();
         let State { file, shown, .. } = &mut self.state;
-        for (&id, edited) in file.edited.iter().filter(|(_, edited)| !edited.modifiers().is_empty()) {
-            if let Some(mesh) = shown.evaluate(id, edited).to_mesh() {
+        for (&id, _) in file.edited.iter().filter(|(_, edited)| !edited.modifiers().is_empty()) {
+            if let Some(mesh) = shown.evaluate(id, &file.native.scene, &file.edited).to_mesh() {
                 scene.replace_mesh(id, mesh).expect("an edited mesh is in the scene");
             }
         }
@@ -34,8 +34,7 @@ impl Document {
     /// What a view shows of the modifiers of a mesh, in the order of its stack; none if it was never edited.
     pub fn modifier_states(&mut self, id: MeshId) -> Vec<ModifierState> {
         let State { file, shown, .. } = &mut self.state;
-        let Some(edited) = file.edited.get(&id) else { return Vec::new() };
-        shown.evaluate(id, edited).states().cloned().collect()
+        shown.evaluate(id, &file.native.scene, &file.edited).states().cloned().collect()
     }
 
     /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this
@@ -70,7 +69,7 @@ impl Document {
         }
         let mut changes: Vec<_> = is_first.then_some(SceneChange::Whole).into_iter().collect();
         changes.extend(untold.take(&file.native.scene, &shown.visible));
-        changes.extend(shown.take_visible(&file.edited));
+        changes.extend(shown.take_visible(&file.native.scene, &file.edited));
         changes
     }
 

@@ -9,6 +9,8 @@ use trigon_mesh::{EditData, Mesh};
 use trigon_modelling::{EditMesh, Refusal};
 use trigon_scene::{MeshAsset, MeshId};
 
+use crate::objects::SceneObjects;
+
 /// What a file holds of a document, with its meshes as they are edited. A clone shares everything but these, and
 /// another thread can save it while editing continues.
 #[derive(Debug, Clone, Default)]
@@ -107,7 +109,8 @@ impl DocumentFile {
         let mut native = self.native.clone();
         for (&id, edited) in &self.edited {
             if let Some(asset) = self.native.scene.meshes().get(id) {
-                let evaluated = if options.modifiers { edited.evaluated() } else { Ok(None) };
+                let objects = SceneObjects::new(&self.native.scene, &self.edited, None, id);
+                let evaluated = if options.modifiers { edited.evaluated(&objects) } else { Ok(None) };
                 let refused = |source| ExportError::Modifiers { name: asset.name.clone(), source };
                 let (mut mesh, _) = evaluated.map_err(refused)?.as_ref().unwrap_or(edited).to_mesh();
                 name_targets(&mut mesh, asset);

@@ -3,7 +3,7 @@
 use trigon_io::{LoadOptions, encode_glb, load_from_slice};
 use trigon_mesh::math::Vec3;
 use trigon_mesh::{SkinWeights, primitives};
-use trigon_modelling::{EdgeId, FaceId, Modifier, StackedModifier, SubdivisionModifier, VertexId};
+use trigon_modelling::{EdgeId, FaceId, Modifier, NoObjects, StackedModifier, SubdivisionModifier, VertexId};
 use trigon_scene::{Material, Scene};
 
 use super::*;
@@ -79,7 +79,7 @@ fn a_stack_with_every_modifier_comes_back_and_is_baked_on_export_if_wanted() {
             load_from_slice("cube.ply", &file.bytes, &LoadOptions::default()).expect("it is whole");
         exported.scene.meshes().iter().map(|(_, asset)| asset.mesh().face_count()).sum::<usize>()
     };
-    let baked = cube.evaluated().expect("it is small").expect("some are on").face_count();
+    let baked = cube.evaluated(&NoObjects).expect("it is small").expect("some are on").face_count();
     assert_eq!((faces(false), faces(true)), (6, baked), "the cube, and what the stack makes of it");
     assert!(baked > 24, "at least mirrored, copied and beveled: {baked}");
 }

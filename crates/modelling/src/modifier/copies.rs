@@ -59,6 +59,9 @@ pub struct ArrayModifier {
     pub offset: [f64; 3],
     /// The offset along each axis as a factor of the size of the mesh along it.
     pub relative_offset: [f64; 3],
+    /// The name of another object: each copy also stands to the one before as that object to the mesh, turned and scaled like
+    /// it. Empty: none.
+    pub object: String,
     /// Vertices of all copies at most this far apart, in metres, become one. Null: none do.
     #[schemars(range(min = 0.0))]
     pub merge_distance: Option<f64>,
@@ -79,7 +82,13 @@ impl ArrayModifier {
 
 impl Default for ArrayModifier {
     fn default() -> Self {
-        Self { count: 2, offset: [0.0; 3], relative_offset: [1.0, 0.0, 0.0], merge_distance: None }
+        Self {
+            count: 2,
+            offset: [0.0; 3],
+            relative_offset: [1.0, 0.0, 0.0],
+            object: String::new(),
+            merge_distance: None,
+        }
     }
 }
 

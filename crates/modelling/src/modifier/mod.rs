@@ -3,6 +3,7 @@
 //!
 //! Here are the parameters and their ranges alone. `stack` applies them.
 
+mod boolean;
 mod copies;
 mod surfaces;
 mod walls;
@@ -11,6 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::refusal::Refusal;
+pub use boolean::{BooleanModifier, BooleanOperation};
 pub use copies::{ArrayModifier, MirrorModifier, WeldModifier};
 pub use surfaces::{BevelModifier, BeveledEdges, DecimateModifier, SubdivisionModifier, TriangulateModifier};
 pub use walls::{ScrewModifier, SolidifyModifier};
@@ -41,6 +43,8 @@ pub enum Modifier {
     Decimate(DecimateModifier),
     /// Edges are swept around an axis.
     Screw(ScrewModifier),
+    /// The volume is combined with that of another object.
+    Boolean(BooleanModifier),
 }
 
 /// A modifier in the stack of a mesh.
@@ -108,6 +112,29 @@ kinds! {
     Triangulate(TriangulateModifier) "Triangulate",
     Decimate(DecimateModifier) "Decimate",
     Screw(ScrewModifier) "Screw",
+    Boolean(BooleanModifier) "Boolean",
+}
+
+impl Modifier {
+    /// The name of the other object that it uses.
+    #[must_use]
+    pub fn object(&self) -> Option<&str> {
+        match self {
+            Self::Boolean(BooleanModifier { object, .. }) | Self::Array(ArrayModifier { object, .. }) => {
+                Some(object.as_str()).filter(|name| !name.is_empty())
+            }
+            _ => None,
+        }
+    }
+
+    /// Uses the other object by another name.
+    pub fn set_object(&mut self, name: &str) {
+        if let Self::Boolean(BooleanModifier { object, .. }) | Self::Array(ArrayModifier { object, .. }) =
+            self
+        {
+            name.clone_into(object);
+        }
+    }
 }
 
 /// Refuses a number out of its range, or not finite.

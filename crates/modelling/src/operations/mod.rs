@@ -54,7 +54,7 @@ mod tris_to_quads;
 mod unwrap;
 
 pub use bevel::{BevelLeftOut, BevelSettings, BevelWidth, Beveled, InnerMiter, OuterMiter};
-pub use boolean::{BooleanOperation, BooleanTool, Combined};
+pub use boolean::{BooleanTool, Combined};
 pub use connect::Connected;
 pub use copy::CopiedElements;
 pub use decimate::{DecimateGoal, DecimateSettings, Decimated};

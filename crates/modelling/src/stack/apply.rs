@@ -6,27 +6,41 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::layers::{LayerKind, LayerValues};
 use crate::modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, DecimateModifier, MirrorModifier, Modifier, ScrewModifier,
-    SolidifyModifier, SubdivisionModifier, TriangulateModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, DecimateModifier, MirrorModifier, Modifier,
+    ScrewModifier, SolidifyModifier, SubdivisionModifier, TriangulateModifier,
 };
-use crate::operations::{BevelSettings, DecimateGoal, DecimateSettings, SolidifySettings, SpinSettings};
+use crate::operations::{
+    BevelSettings, BooleanTool, DecimateGoal, DecimateSettings, SolidifySettings, SpinSettings,
+};
 use crate::refusal::Refusal;
+use crate::stack::objects::{ModifierObjects, NoObjects};
+
+/// A modifier names an object that is not there, or has no mesh.
+const NO_OBJECT: Refusal = Refusal::NotPossible {
+    operation: "a modifier with another object",
+    reason: "there is no other object of this name, or it has no mesh: choose one",
+};
 
 impl EditMesh {
     /// Changes the mesh as a modifier says; not at all where there is nothing for it to do. If it is refused half way, the
     /// caller restores the mesh.
-    pub(super) fn modify(&mut self, modifier: &Modifier) -> Result<(), Refusal> {
+    pub(super) fn modify(
+        &mut self,
+        modifier: &Modifier,
+        objects: &dyn ModifierObjects,
+    ) -> Result<(), Refusal> {
         modifier.check()?;
         match modifier {
             Modifier::Subdivision(settings) => self.modify_by_subdivision(settings),
             Modifier::Mirror(settings) => self.modify_by_mirror(settings),
-            Modifier::Array(settings) => self.modify_by_array(settings),
+            Modifier::Array(settings) => self.modify_by_array(settings, objects),
             Modifier::Solidify(settings) => self.modify_by_solidify(settings),
             Modifier::Bevel(settings) => self.modify_by_bevel(settings),
             Modifier::Weld(settings) => self.weld(settings.distance),
             Modifier::Triangulate(settings) => self.modify_by_triangles(settings),
             Modifier::Decimate(settings) => self.modify_by_decimate(settings),
             Modifier::Screw(settings) => self.modify_by_screw(settings),
+            Modifier::Boolean(settings) => self.modify_by_boolean(settings, objects),
         }
     }
 
@@ -72,11 +86,28 @@ impl EditMesh {
         }
     }
 
-    fn modify_by_array(&mut self, settings: &ArrayModifier) -> Result<(), Refusal> {
-        let original = self.clone();
+    fn modify_by_array(
+        &mut self,
+        settings: &ArrayModifier,
+        objects: &dyn ModifierObjects,
+    ) -> Result<(), Refusal> {
         let offset = DVec3::from(settings.offset) + DVec3::from(settings.relative_offset) * self.extent();
+        let original = self.clone();
+        let other = match settings.object.as_str() {
+            "" => None,
+            name => Some(objects.state(name).ok_or(NO_OBJECT)?.transform),
+        };
+        let mut turned = DAffine3::IDENTITY;
         for number in 1..settings.count {
-            self.join_mesh(&original, &DAffine3::from_translation(offset * f64::from(number)))?;
+            let transform = match other {
+                // Computed anew for each, so that nothing is rounded twice.
+                None => DAffine3::from_translation(offset * f64::from(number)),
+                Some(other) => {
+                    turned = turned * DAffine3::from_translation(offset) * other;
+                    turned
+                }
+            };
+            self.join_mesh(&original, &transform)?;
         }
         settings.merge_distance.map_or(Ok(()), |distance| self.weld(distance))
     }
@@ -169,6 +200,24 @@ impl EditMesh {
     /// The vertices without edges.
     pub(super) fn vertices_to_sweep(&self) -> Vec<VertexId> {
         self.vertices().filter(|&vertex| self.vertex_edges(vertex).next().is_none()).collect()
+    }
+
+    fn modify_by_boolean(
+        &mut self,
+        settings: &BooleanModifier,
+        objects: &dyn ModifierObjects,
+    ) -> Result<(), Refusal> {
+        if settings.object.is_empty() {
+            return Ok(());
+        }
+        let state = objects.state(&settings.object);
+        let Some((state, mesh)) = state.zip(objects.mesh(&settings.object)) else {
+            return Err(NO_OBJECT);
+        };
+        // Its own booleans are left out, so that two objects may use each other.
+        let evaluated = mesh.evaluated(&NoObjects)?;
+        let tool = BooleanTool { mesh: evaluated.as_ref().unwrap_or(&mesh), transform: state.transform };
+        self.boolean(&[tool], settings.operation).map(drop)
     }
 
     fn modify_by_triangles(&mut self, settings: &TriangulateModifier) -> Result<(), Refusal> {

@@ -2,7 +2,7 @@
 
 use trigon_mesh::{Attributes, Mesh, MeshColumns};
 
-use super::Evaluation;
+use super::evaluation::Evaluation;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, NONE, VertexId};
 use crate::to_mesh::ElementMap;

@@ -6,6 +6,7 @@ use trigon_mesh::Mesh;
 use crate::edit_mesh::EditMesh;
 use crate::modifier::{Modifier, StackedModifier, SubdivisionModifier};
 use crate::refusal::Refusal;
+use crate::stack::objects::{ModifierObjects, ObjectState};
 
 /// What became of a modifier in a view.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +35,8 @@ pub struct Evaluation {
 #[derive(Debug, Clone)]
 struct Step {
     stacked: StackedModifier,
+    /// The state of the other object that it used.
+    object: Option<ObjectState>,
     state: ModifierState,
     /// What it made, with the numbers of origins; `None` if it changed nothing.
     result: Option<EditMesh>,
@@ -48,15 +51,20 @@ impl Evaluation {
         self.steps.clear();
     }
 
-    /// Evaluates what is not up to date.
-    pub fn update(&mut self, mesh: &EditMesh) {
-        let is_current = |(step, stacked): &(&Step, &StackedModifier)| step.stacked == **stacked;
+    /// Evaluates what is not up to date. Returns whether anything was not.
+    pub fn update(&mut self, mesh: &EditMesh, objects: &dyn ModifierObjects) -> bool {
+        let state_of = |stacked: &StackedModifier| objects.state(stacked.modifier.object()?);
+        let is_current = |(step, stacked): &(&Step, &StackedModifier)| {
+            step.stacked == **stacked && step.object == state_of(stacked)
+        };
         let current = self.steps.iter().zip(mesh.modifiers()).take_while(is_current).count();
+        let is_changed = current < self.steps.len().max(mesh.modifiers().len());
         self.steps.truncate(current);
         for stacked in &mesh.modifiers()[current..] {
-            let (state, result) = self.evaluate(mesh, stacked);
-            self.steps.push(Step { stacked: stacked.clone(), state, result });
+            let (state, result) = self.evaluate(mesh, stacked, objects);
+            self.steps.push(Step { stacked: stacked.clone(), object: state_of(stacked), state, result });
         }
+        is_changed
     }
 
     /// What became of each modifier, in the order of the stack.
@@ -97,7 +105,12 @@ impl Evaluation {
         self.steps.iter().rev().find_map(|step| step.result.as_ref())
     }
 
-    fn evaluate(&self, mesh: &EditMesh, stacked: &StackedModifier) -> (ModifierState, Option<EditMesh>) {
+    fn evaluate(
+        &self,
+        mesh: &EditMesh,
+        stacked: &StackedModifier,
+        objects: &dyn ModifierObjects,
+    ) -> (ModifierState, Option<EditMesh>) {
         if !stacked.is_on {
             return (ModifierState::Off, None);
         }
@@ -106,8 +119,14 @@ impl Evaluation {
             Ok(live) => live,
             Err(size) => return (ModifierState::TooDense(size), None),
         };
+        let other = modifier.object().and_then(|name| objects.mesh(name));
+        if let Some(size) = other.map(|other| 4 * other.face_count() as u64)
+            && size > Self::MOST_LIVE_FACES
+        {
+            return (ModifierState::TooDense(size), None);
+        }
         let mut result = input.map_or_else(|| with_origins(mesh), EditMesh::clone);
-        match result.modify_in_range(&modifier) {
+        match result.modify_in_range(&modifier, objects) {
             Ok(()) => (state, Some(result)),
             Err(refusal) => (ModifierState::Refused(refusal), None),
         }
@@ -142,15 +161,17 @@ impl EditMesh {
     ///
     /// # Errors
     /// A result would have too many elements or take too much memory, or a vertex would lie too far away.
-    pub fn evaluated(&self) -> Result<Option<Self>, Refusal> {
+    pub fn evaluated(&self, objects: &dyn ModifierObjects) -> Result<Option<Self>, Refusal> {
         let mut result: Option<Self> = None;
         for stacked in self.modifiers.iter().filter(|stacked| stacked.is_on) {
             let input = result.as_ref().unwrap_or(self);
             input.check_size_after(&stacked.modifier)?;
             let mut next = Self { modifiers: Vec::new(), ..input.clone() };
-            match next.modify_in_range(&stacked.modifier) {
+            match next.modify_in_range(&stacked.modifier, objects) {
                 Ok(()) => result = Some(next),
-                Err(Refusal::NotPossible { .. } | Refusal::NothingGiven { .. }) => {}
+                Err(
+                    Refusal::NotPossible { .. } | Refusal::NothingGiven { .. } | Refusal::NotSolid { .. },
+                ) => {}
                 Err(refusal) => return Err(refusal),
             }
         }
@@ -158,10 +179,10 @@ impl EditMesh {
     }
 
     /// Changes a mesh as a modifier says. Refuses a result with positions that are not finite, if all were before.
-    fn modify_in_range(&mut self, modifier: &Modifier) -> Result<(), Refusal> {
+    fn modify_in_range(&mut self, modifier: &Modifier, objects: &dyn ModifierObjects) -> Result<(), Refusal> {
         let beyond = |mesh: &Self| mesh.vertices().find(|&vertex| !mesh.position(vertex).is_finite());
         let was_beyond = beyond(self).is_some();
-        self.modify(modifier)?;
+        self.modify(modifier, objects)?;
         match beyond(self).filter(|_| !was_beyond) {
             Some(vertex) => Err(Refusal::Overflow(vertex)),
             None => Ok(()),

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `mod` | changes the stack |
 //! | `apply` | runs one modifier, by the operations that commands call |
+//! | `objects` | what modifiers need of other objects |
 //! | `size` | how large its result may be, before it runs |
 //! | `origins` | the face of the mesh that each face of a result came from |
 //! | `evaluation` | the mesh after all modifiers, evaluated anew from the first one that changed |
@@ -12,6 +13,7 @@
 mod apply;
 mod cage;
 mod evaluation;
+mod objects;
 mod origins;
 mod size;
 #[cfg(test)]
@@ -21,6 +23,7 @@ use super::edit_mesh::EditMesh;
 use super::modifier::{Modifier, StackedModifier, SubdivisionModifier};
 use super::refusal::Refusal;
 pub use evaluation::{Evaluation, ModifierState};
+pub use objects::{ModifierObjects, NoObjects, ObjectState};
 
 const STACK: &str = "a stack of modifiers";
 
@@ -112,12 +115,12 @@ impl EditMesh {
     ///
     /// # Errors
     /// There is no modifier with this index; or the operation is refused, and mesh and stack are as they were.
-    pub fn apply_modifier(&mut self, index: usize) -> Result<(), Refusal> {
+    pub fn apply_modifier(&mut self, index: usize, objects: &dyn ModifierObjects) -> Result<(), Refusal> {
         self.check_modifier(index)?;
         self.whole(|mesh| {
             let stacked = mesh.modifiers.remove(index);
             mesh.check_size_after(&stacked.modifier)?;
-            mesh.modify(&stacked.modifier)
+            mesh.modify(&stacked.modifier, objects)
         })
     }
 

@@ -32,6 +32,8 @@ impl EditMesh {
             }
             Modifier::Array(settings) => size.saturating_mul(u64::from(settings.count)),
             Modifier::Bevel(settings) => size.saturating_add(self.bevel_size(settings)),
+            // Cuts make parts of faces. How large the other object is, is checked where it is known.
+            Modifier::Boolean(_) => 4 * size,
             // Two layers, and a rim along each edge.
             Modifier::Solidify(_) => 2 * size + self.edge_count() as u64,
             Modifier::Triangulate(_) | Modifier::Decimate(_) => (self.corner_count() as u64).max(size),

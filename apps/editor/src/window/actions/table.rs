@@ -53,6 +53,7 @@ actions! {
     "Edit/Add Modifier" "modifier.solidify" "Solidify" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"solidify"}}"#) => "Shows the faces of the active object as walls.";
     "Edit/Add Modifier" "modifier.decimate" "Decimate" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"decimate"}}"#) => "Shows the active object with fewer triangles.";
     "Edit/Add Modifier" "modifier.screw" "Screw" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"screw"}}"#) => "Shows the outline of the active object swept around an axis.";
+    "Edit/Add Modifier" "modifier.boolean" "Boolean" "" Meshes Run(r#"{"op":"add_modifier","modifier":{"kind":"boolean"}}"#) => "Combines the volume of the active object with that of another one, which the properties choose.";
     "Edit/Add Modifier" "modifier.apply" "Apply First" "" Meshes Run(r#"{"op":"apply_modifier"}"#) => "Changes the mesh of the active object as its first modifier says, and removes that.";
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";

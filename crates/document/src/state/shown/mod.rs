@@ -14,6 +14,7 @@ use trigon_scene::{MeshId, Scene};
 use super::MarkedElements;
 use super::visible::SceneChange;
 use super::visible::{Sight, VisibleMesh};
+use crate::objects::SceneObjects;
 use crate::revision::next_revision;
 use crate::selection::Selection;
 
@@ -57,6 +58,8 @@ pub(crate) struct Shown {
     pub(crate) visible: BTreeMap<MeshId, VisibleMesh>,
     /// Meshes after their modifiers.
     evaluations: BTreeMap<MeshId, Evaluation>,
+    /// Another number after each change of a mesh or its modifiers, for those of other objects that use it.
+    revisions: BTreeMap<MeshId, u64>,
     /// Another one after each change that affects marks, other than of the selection.
     pub(crate) marks_revision: u64,
 }
@@ -73,6 +76,7 @@ impl Shown {
         }
         if difference.changes_modifiers() {
             self.note_visible(id);
+            self.revisions.insert(id, next_revision());
         }
         if difference.changes_elements() {
             self.forget_evaluation(id);
@@ -96,15 +100,29 @@ impl Shown {
 
     /// What modifiers made of a mesh is outdated.
     fn forget_evaluation(&mut self, id: MeshId) {
+        self.revisions.insert(id, next_revision());
         if let Some(evaluation) = self.evaluations.get_mut(&id) {
             evaluation.forget();
         }
     }
 
     /// A mesh after its modifiers, up to date.
-    pub(crate) fn evaluate(&mut self, id: MeshId, mesh: &EditMesh) -> &Evaluation {
+    pub(crate) fn evaluate(
+        &mut self,
+        id: MeshId,
+        scene: &Scene,
+        edited: &BTreeMap<MeshId, EditMesh>,
+    ) -> &Evaluation {
+        let objects = SceneObjects::new(scene, edited, Some(&self.revisions), id);
         let evaluation = self.evaluations.entry(id).or_default();
-        evaluation.update(mesh);
+        if let Some(mesh) = edited.get(&id)
+            && evaluation.update(mesh, &objects)
+            && let Some(visible) = self.visible.get_mut(&id)
+            && visible.values.is_empty()
+        {
+            // Not its own elements changed, but its modifiers, or other objects that these use.
+            visible.is_outdated = true;
+        }
         evaluation
     }
 
@@ -146,7 +164,7 @@ impl Shown {
                 self.make_anew(scene, id, edited);
             }
         }
-        self.refresh(meshes, selection);
+        self.refresh(scene, meshes, selection);
     }
 
     fn make_anew(&mut self, scene: &mut Scene, id: MeshId, edited: &EditMesh) {
@@ -163,7 +181,7 @@ impl Shown {
     }
 
     /// Brings what a copy shows up to date, if there is a copy.
-    fn refresh(&mut self, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
+    fn refresh(&mut self, scene: &Scene, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
         let Some(mut untold) = self.untold.take() else { return };
         let candidates: BTreeSet<MeshId> = edited
             .iter()
@@ -175,7 +193,7 @@ impl Shown {
             let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
                 let is_edited = selection.of(id).is_some();
                 let has_hidden = is_edited && self.marked(id, mesh).has_hidden;
-                Sight::of(self.evaluate(id, mesh), is_edited, has_hidden)
+                Sight::of(self.evaluate(id, scene, edited), is_edited, has_hidden)
             });
             let known = self.visible.get(&id);
             let is_current = match known {
@@ -191,7 +209,7 @@ impl Shown {
                 untold.visible.remove(&id);
                 untold.meshes.insert(id);
             } else {
-                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id], self.evaluate(id, &edited[&id]));
+                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id], self.evaluate(id, scene, edited));
                 self.visible.insert(id, visible);
                 untold.visible.insert(id, mesh);
             }
@@ -200,12 +218,16 @@ impl Shown {
     }
 
     /// The changes of meshes that the copy shows in another way than the scene, since the last call.
-    pub(crate) fn take_visible(&mut self, edited: &BTreeMap<MeshId, EditMesh>) -> Vec<SceneChange> {
+    pub(crate) fn take_visible(
+        &mut self,
+        scene: &Scene,
+        edited: &BTreeMap<MeshId, EditMesh>,
+    ) -> Vec<SceneChange> {
         let mut changes = Vec::new();
         for (&id, visible) in &mut self.visible {
             let Some(mesh) = edited.get(&id) else { continue };
             let evaluation = self.evaluations.entry(id).or_default();
-            evaluation.update(mesh);
+            evaluation.update(mesh, &SceneObjects::new(scene, edited, Some(&self.revisions), id));
             let change = visible.take(id, mesh, evaluation);
             if matches!(change, Some(SceneChange::Visible(..))) {
                 self.marks_revision = next_revision();

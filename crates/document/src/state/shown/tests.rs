@@ -106,7 +106,7 @@ fn check(document: &mut Document, copy: &Scene) -> Result<(), TestCaseError> {
         let is_edited = document.selection().of(id).is_some();
         let has_hidden = is_edited && document.marked(id).is_some_and(|marked| marked.has_hidden);
         let mut evaluation = Evaluation::default();
-        evaluation.update(edited);
+        evaluation.update(edited, &SceneObjects::new(document.nodes(), &BTreeMap::new(), None, id));
         let sight = Sight::of(&evaluation, is_edited, has_hidden);
         let (anew, map) = sight.mesh(edited, &evaluation);
         prop_assert_eq!(shown.positions(), anew.positions());

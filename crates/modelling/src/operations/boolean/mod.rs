@@ -29,34 +29,11 @@ use self::solid::Sources;
 use self::weave::Weave;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId};
+use crate::modifier::BooleanOperation;
 use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
 const OPERATION: &str = "a boolean";
-
-/// How volumes are combined.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    Hash,
-    Default,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum BooleanOperation {
-    /// What is in any of them.
-    Union,
-    /// What is in the first one and in no other.
-    #[default]
-    Difference,
-    /// What is in all of them.
-    Intersection,
-}
 
 /// A mesh that is combined with another one.
 #[derive(Debug, Clone, Copy)]

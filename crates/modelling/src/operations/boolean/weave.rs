@@ -6,12 +6,13 @@ use std::ops::Range;
 use smallvec::SmallVec;
 use trigon_math::{DVec3, Vec3};
 
+use super::Combined;
 use super::outlines::Outline;
 use super::solid::Sources;
 use super::values::SourceFace;
-use super::{BooleanOperation, Combined};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, NONE, VertexId};
+use crate::modifier::BooleanOperation;
 use crate::operations::copy::CopiedElements;
 use crate::refusal::Refusal;
 
