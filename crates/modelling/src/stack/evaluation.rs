@@ -29,11 +29,11 @@ pub enum ModifierState {
 #[derive(Debug, Clone, Default)]
 pub struct Evaluation {
     /// One for each modifier of the stack.
-    steps: Vec<Step>,
+    steps: Vec<EvaluatedModifier>,
 }
 
 #[derive(Debug, Clone)]
-struct Step {
+struct EvaluatedModifier {
     stacked: StackedModifier,
     /// The state of the other object that it used.
     object: Option<ObjectState>,
@@ -54,7 +54,7 @@ impl Evaluation {
     /// Evaluates what is not up to date. Returns whether anything was not.
     pub fn update(&mut self, mesh: &EditMesh, objects: &dyn ModifierObjects) -> bool {
         let state_of = |stacked: &StackedModifier| objects.state(stacked.modifier.object()?);
-        let is_current = |(step, stacked): &(&Step, &StackedModifier)| {
+        let is_current = |(step, stacked): &(&EvaluatedModifier, &StackedModifier)| {
             step.stacked == **stacked && step.object == state_of(stacked)
         };
         let current = self.steps.iter().zip(mesh.modifiers()).take_while(is_current).count();
@@ -62,7 +62,12 @@ impl Evaluation {
         self.steps.truncate(current);
         for stacked in &mesh.modifiers()[current..] {
             let (state, result) = self.evaluate(mesh, stacked, objects);
-            self.steps.push(Step { stacked: stacked.clone(), object: state_of(stacked), state, result });
+            self.steps.push(EvaluatedModifier {
+                stacked: stacked.clone(),
+                object: state_of(stacked),
+                state,
+                result,
+            });
         }
         is_changed
     }
