@@ -4,6 +4,7 @@
 //! what it changes, and returns what it made. Ids given twice count once. On an error the mesh is unchanged.
 
 mod bevel;
+mod bisect;
 mod boolean;
 mod bridge;
 mod bridge_faces;
@@ -19,7 +20,9 @@ mod extrude;
 mod fill;
 mod frame;
 mod grid_fill;
+mod halves;
 mod hide;
+mod hull;
 mod inset;
 mod join;
 mod knife;
@@ -31,6 +34,7 @@ mod merge;
 mod mirror;
 mod outlines;
 mod parts;
+mod poke;
 mod project_around;
 mod project_uvs;
 #[cfg(test)]
@@ -52,8 +56,10 @@ mod transform;
 mod triangulate;
 mod tris_to_quads;
 mod unwrap;
+mod wireframe;
 
 pub use bevel::{BevelLeftOut, BevelSettings, BevelWidth, Beveled, InnerMiter, OuterMiter};
+pub use bisect::{BisectSettings, Bisected};
 pub use boolean::{BooleanTool, Combined};
 pub use connect::Connected;
 pub use copy::CopiedElements;
@@ -63,11 +69,13 @@ pub use extrude::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices}
 pub use fill::Filled;
 pub use grid_fill::GridSides;
 pub use hide::VisibilityChange;
+pub use hull::{ConvexHull, HullSettings};
 pub use inset::{Inset, InsetFaces};
 pub use knife::{KnifeCut, KnifePoint};
 pub use loop_cut::{LoopCut, LoopCutSettings};
 pub use merge::MergedVertices;
 pub use mirror::Mirrored;
+pub use poke::Poked;
 pub use project_around::{CylinderProjection, SphereProjection};
 pub use project_uvs::{BoxProjection, PlanarProjection};
 pub use recalculate_normals::RecalculatedNormals;
@@ -80,3 +88,4 @@ pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transfo
 pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
 pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};
+pub use wireframe::WireframeSettings;

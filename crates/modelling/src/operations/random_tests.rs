@@ -21,7 +21,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 29 {
+    match kind % 33 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -76,6 +76,17 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             let settings = SpinSettings { angle: 6.0 * a, steps: 3, height, ..Default::default() };
             mesh.spin(&edges, &vertices, &settings).map(drop)
         }
+        28 => {
+            let [clear_outer, clear_inner, fill] = [1, 4, 2].map(|bit| bits & bit != 0 && b > 0.0);
+            let settings = BisectSettings { clear_outer, clear_inner, fill, threshold: 0.0 };
+            mesh.bisect(&faces, center * 0.2, plane.normal(), &settings).map(drop)
+        }
+        29 => mesh.poke_faces(&faces, a).map(drop),
+        30 => mesh.convex_hull(&vertices, &HullSettings { replace: a > 0.0 }).map(drop),
+        31 => {
+            let settings = WireframeSettings { thickness: b.abs(), replace: a > 0.0 };
+            mesh.wireframe_faces(&faces, &settings).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -111,7 +122,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 29)) {
+            if (5..15).contains(&(kind % 33)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

@@ -1,8 +1,9 @@
 //! Reducing the number of triangles, with as little change of the surface as possible.
 //!
-//! Edges collapse in the order of the error that this causes (`quadric`, `wedges`). `surface` is a copy of what is needed
-//! for that, as lists; `collapse` works on it, and `rebuild` changes the mesh once at the end.
+//! Edges collapse in the order of the error that this causes (`candidates`, from `quadric` and `wedges`). `surface` is a
+//! copy of what is needed for that, as lists; `collapse` works on it, and `rebuild` changes the mesh once at the end.
 
+mod candidates;
 mod collapse;
 mod quadric;
 mod rebuild;

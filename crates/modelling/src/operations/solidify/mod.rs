@@ -142,7 +142,7 @@ impl EditMesh {
     }
 
     /// The edges with one side of a region's faces.
-    fn single_sides(&self, region: &Region) -> Vec<BorderEdge> {
+    pub(super) fn single_sides(&self, region: &Region) -> Vec<BorderEdge> {
         let mut border = region.border(self);
         border.retain(|border| {
             let sides = self.edge_corners(border.edge).filter(|&side| region.has_corner(self, side));

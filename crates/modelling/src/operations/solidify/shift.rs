@@ -23,7 +23,12 @@ type Planes = SmallVec<[(DVec3, f64); 4]>;
 
 impl EditMesh {
     /// For each vertex of a region, by which vector it moves for a distance of 1; zero where faces have no normals.
-    pub(super) fn shifts(&self, region: &Region, vertices: &[VertexId], even: bool) -> Vec<DVec3> {
+    pub(in crate::operations) fn shifts(
+        &self,
+        region: &Region,
+        vertices: &[VertexId],
+        even: bool,
+    ) -> Vec<DVec3> {
         let mut indices = IndexTable::new(self.vertex_capacity(), vertices.len());
         for (index, vertex) in (0..).zip(vertices) {
             indices.insert(vertex.0, index);

@@ -78,7 +78,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 40] = [
+const OPERATIONS: [Operation; 45] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -129,6 +129,21 @@ const OPERATIONS: [Operation; 40] = [
     }),
     operation("outset a region", Promise::Nothing, |mesh, on| {
         mesh.outset_region(&on.faces, Inset { thickness: 0.1, ..Inset::default() }).map(drop)
+    }),
+    operation("bisect", Promise::Shape, |mesh, on| {
+        mesh.bisect(&on.faces, DVec3::splat(0.1), DVec3::new(1.0, 0.3, -0.2), &BisectSettings::default())
+            .map(drop)
+    }),
+    operation("bisect, clear and fill", Promise::Nothing, |mesh, on| {
+        let settings = BisectSettings { clear_outer: true, fill: true, ..Default::default() };
+        mesh.bisect(&on.faces, DVec3::ZERO, DVec3::X, &settings).map(drop)
+    }),
+    operation("wireframe", Promise::Nothing, |mesh, on| {
+        mesh.wireframe_faces(&on.faces, &WireframeSettings::default()).map(drop)
+    }),
+    operation("poke", Promise::Euler, |mesh, on| mesh.poke_faces(&on.faces, 0.0).map(drop)),
+    operation("convex hull", Promise::Nothing, |mesh, on| {
+        mesh.convex_hull(&on.vertices, &HullSettings { replace: on.number % 2 == 0 }).map(drop)
     }),
     operation("spin", Promise::Nothing, |mesh, on| {
         let settings = SpinSettings { axis: [1.0, 0.0, 1.0], steps: 3, ..Default::default() };
