@@ -34,7 +34,7 @@ impl<'s> SceneObjects<'s> {
     }
 
     /// The map from the mesh with the modifiers into the world: that of the first object that shows it.
-    fn into_world(&self) -> DAffine3 {
+    fn world_transform(&self) -> DAffine3 {
         let shows = |id: &NodeId| self.scene.node(*id).is_some_and(|node| node.mesh == Some(self.mesh));
         let owner = self.scene.nodes().iter().map(|(id, _)| id).find(shows);
         owner.map_or(DAffine3::IDENTITY, |id| self.scene.world_transform(id))
@@ -45,7 +45,7 @@ impl ModifierObjects for SceneObjects<'_> {
     fn state(&self, name: &str) -> Option<ObjectState> {
         let (object, mesh) = self.find(name)?;
         let revision = self.revisions.zip(mesh).and_then(|(revisions, mesh)| revisions.get(&mesh));
-        let transform = self.into_world().inverse() * self.scene.world_transform(object);
+        let transform = self.world_transform().inverse() * self.scene.world_transform(object);
         Some(ObjectState { revision: revision.copied().unwrap_or(0), transform })
     }
 
