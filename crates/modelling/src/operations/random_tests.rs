@@ -66,13 +66,17 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
         ),
         24 => mesh.project_uvs_on_sphere(&faces, 1, &SphereProjection { axis: center, ..Default::default() }),
         25 => {
-            let settings =
-                SolidifySettings { thickness: b.abs(), offset: a, even: bits % 2 == 0, ..Default::default() };
+            let settings = SolidifySettings {
+                thickness: b.abs(),
+                offset: a,
+                even: bits.is_multiple_of(2),
+                ..Default::default()
+            };
             mesh.solidify_faces(&faces, &settings).map(drop)
         }
         26 => mesh.decimate(&faces, &DecimateSettings { ratio: a.abs(), ..Default::default() }).map(drop),
         27 => {
-            let height = if bits % 3 == 0 { b } else { 0.0 };
+            let height = if bits.is_multiple_of(3) { b } else { 0.0 };
             let settings = SpinSettings { angle: 6.0 * a, steps: 3, height, ..Default::default() };
             mesh.spin(&edges, &vertices, &settings).map(drop)
         }

@@ -32,7 +32,7 @@ const OPERATION: &str = "making a wireframe";
 const LONGEST: f64 = 20.0;
 
 /// The vertices of a strut at an end, on both sides of the surface: in front and behind.
-type Sides = [VertexId; 2];
+type StrutEnd = [VertexId; 2];
 
 impl EditMesh {
     /// Makes a strut of each edge of faces: a closed solid where each edge has at most two of the faces.
@@ -104,7 +104,7 @@ impl EditMesh {
     }
 
     /// Two vertices like one, at a position plus and minus a vector.
-    fn both_sides(&mut self, like: VertexId, position: DVec3, by: DVec3) -> Sides {
+    fn both_sides(&mut self, like: VertexId, position: DVec3, by: DVec3) -> StrutEnd {
         [position + by, position - by].map(|position| {
             let vertex = self.twin_vertex(like);
             self.set_position(vertex, position.as_vec3());
@@ -117,7 +117,7 @@ impl EditMesh {
     fn add_struts(&mut self, face: FaceId, struts: &Struts, made: &mut Vec<FaceId>) {
         let normal = self.face_normal(face);
         let corners: Vec<CornerId> = self.face_corners(face).collect();
-        let inner: Vec<Sides> = corners
+        let inner: Vec<StrutEnd> = corners
             .iter()
             .map(|&corner| {
                 let position =
@@ -168,13 +168,13 @@ impl EditMesh {
 /// The vertices of struts at the vertices of faces.
 struct Struts {
     numbers: IndexTable,
-    sides: Vec<Sides>,
+    sides: Vec<StrutEnd>,
     /// Half of the thickness.
     half: f64,
 }
 
 impl Struts {
-    fn at(&self, vertex: VertexId) -> Sides {
+    fn at(&self, vertex: VertexId) -> StrutEnd {
         self.sides[self.numbers.get(vertex.0).expect("all vertices of the faces have them") as usize]
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct CutEdge {
 
 /// A closed walk, as positions in the plane; it visits each vertex once.
 #[derive(Debug, Clone)]
-struct Outline {
+struct CutLoop {
     vertices: Vec<VertexId>,
     points: Vec<DVec2>,
     /// Twice the area; negative for a hole.
@@ -32,9 +32,9 @@ impl EditMesh {
         let outline = |vertices: Vec<VertexId>| {
             let points: Vec<DVec2> =
                 vertices.iter().map(|&vertex| view.project(self.point(vertex))).collect();
-            Outline { area: doubled_area(&points), vertices, points }
+            CutLoop { area: doubled_area(&points), vertices, points }
         };
-        let outlines: Vec<Outline> = loops(cut).into_iter().map(outline).collect();
+        let outlines: Vec<CutLoop> = loops(cut).into_iter().map(outline).collect();
         let walks = with_holes(outlines);
         let mut sources = BTreeMap::new();
         for edge in cut {
@@ -46,7 +46,7 @@ impl EditMesh {
         walks.iter().flat_map(|walk| self.fill_walk(walk, &sources)).collect()
     }
 
-    fn fill_walk(&mut self, walk: &Outline, sources: &BTreeMap<VertexId, CornerId>) -> Vec<FaceId> {
+    fn fill_walk(&mut self, walk: &CutLoop, sources: &BTreeMap<VertexId, CornerId>) -> Vec<FaceId> {
         let parts = simple_parts(&walk.vertices, |vertex| self.position(vertex));
         let mut faces = Vec::new();
         for part in parts.iter() {
@@ -106,11 +106,11 @@ fn doubled_area(points: &[DVec2]) -> f64 {
 }
 
 /// Joins holes by bridges to the smallest outlines around them. A hole without such an outline stays alone.
-fn with_holes(outlines: Vec<Outline>) -> Vec<Outline> {
-    let (mut walks, mut holes): (Vec<Outline>, Vec<Outline>) =
+fn with_holes(outlines: Vec<CutLoop>) -> Vec<CutLoop> {
+    let (mut walks, mut holes): (Vec<CutLoop>, Vec<CutLoop>) =
         outlines.into_iter().partition(|outline| outline.area > 0.0);
     // From the right to the left, so that a bridge to the right meets no hole that is not joined yet.
-    let right = |hole: &Outline| hole.points.iter().map(|point| point.x).fold(f64::NEG_INFINITY, f64::max);
+    let right = |hole: &CutLoop| hole.points.iter().map(|point| point.x).fold(f64::NEG_INFINITY, f64::max);
     holes.sort_by(|a, b| right(b).total_cmp(&right(a)));
     let count = walks.len();
     let areas: Vec<f64> = walks.iter().map(|walk| walk.area).collect();
@@ -142,7 +142,7 @@ fn is_inside(point: DVec2, outline: &[DVec2]) -> bool {
 }
 
 /// A walk that goes to a hole, around it, and back.
-fn bridged(walk: &Outline, hole: &Outline) -> Outline {
+fn bridged(walk: &CutLoop, hole: &CutLoop) -> CutLoop {
     let mut rightmost = 0;
     for index in 1..hole.points.len() {
         if hole.points[index].x > hole.points[rightmost].x {
@@ -168,8 +168,8 @@ fn bridged(walk: &Outline, hole: &Outline) -> Outline {
     };
     // Loops of a surface that crosses itself may have no bridge: any one gives faces with the right area.
     let to = [order.into_iter().find(is_visible).unwrap_or(0), rightmost];
-    let mut joined = Outline { vertices: Vec::new(), points: Vec::new(), area: walk.area + hole.area };
-    let mut push = |from: &Outline, index: usize| {
+    let mut joined = CutLoop { vertices: Vec::new(), points: Vec::new(), area: walk.area + hole.area };
+    let mut push = |from: &CutLoop, index: usize| {
         let index = index % from.points.len();
         joined.vertices.push(from.vertices[index]);
         joined.points.push(from.points[index]);
@@ -181,7 +181,7 @@ fn bridged(walk: &Outline, hole: &Outline) -> Outline {
 }
 
 /// Whether a point is within the angle of a walk at one of its corners: a walk with a bridge comes to a vertex twice.
-fn opens_towards(walk: &Outline, index: usize, to: DVec2) -> bool {
+fn opens_towards(walk: &CutLoop, index: usize, to: DVec2) -> bool {
     let count = walk.points.len();
     let (back, here, ahead) =
         (walk.points[(index + count - 1) % count], walk.points[index], walk.points[(index + 1) % count]);

@@ -210,8 +210,8 @@ impl Halves<'_> {
             self.cut_edge(mesh, edge)?;
         }
         let mut pieces = faces.to_vec();
-        for index in 0..faces.len() {
-            self.cut_into(mesh, faces[index], &mut pieces)?;
+        for &face in faces {
+            self.cut_into(mesh, face, &mut pieces)?;
         }
         Ok(pieces)
     }

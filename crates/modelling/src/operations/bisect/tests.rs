@@ -33,7 +33,9 @@ fn a_cut_through_a_ring_is_an_annulus() {
         torus.check_structure().expect("whole");
         assert!(is_closed(&torus) && made.fill.len() > 1);
         // The polygons of 24 sides through the outermost and the innermost vertices.
-        let polygon = |radius: f64| 12.0 * radius * radius * (std::f64::consts::TAU / 24.0).sin();
+        let polygon = |radius: f64| {
+            12.0 * radius * radius * trigon_math::elementary::sin_cos(std::f64::consts::TAU / 24.0).0
+        };
         let area: f64 = made.fill.iter().map(|&face| torus.face_area(face)).sum();
         assert!((area - (polygon(2.5) - polygon(1.5))).abs() < 1e-5, "{area}");
         let up = if settings.clear_outer { 1.0 } else { -1.0 };

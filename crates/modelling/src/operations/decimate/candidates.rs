@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use trigon_math::DVec3;
 
 use super::quadric::Quadric;
-use super::surface::{Freedom, Surface, Triangle};
+use super::surface::{Freedom, ReducedTriangle, Surface};
 use crate::ids::NONE;
 
 /// Where all costs are equal, as in a plane, short edges go first: a length counts as a distance from the surface of this
@@ -19,7 +19,7 @@ const FARTHEST: f64 = 2.0;
 
 /// A possible collapse.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Candidate {
+pub(super) struct Collapse {
     pub(super) retained: u32,
     pub(super) gone: u32,
     pub(super) point: DVec3,
@@ -74,7 +74,7 @@ pub(super) fn pairs(surface: &Surface, adjacency: &Adjacency) -> Vec<Pair> {
     let mut pairs = Vec::with_capacity(surface.triangles.len() * 3 / 2);
     for vertex in 0..surface.points.len() as u32 {
         for &number in adjacency.at(vertex) {
-            let Triangle { vertices, features, .. } = surface.triangles[number as usize];
+            let ReducedTriangle { vertices, features, .. } = surface.triangles[number as usize];
             let side = index_of(&vertices, vertex);
             for (other, between) in [((side + 1) % 3, side), ((side + 2) % 3, (side + 2) % 3)] {
                 let other = vertices[other];
@@ -112,7 +112,7 @@ pub(super) fn order(surface: &Surface, pairs: &[Pair], largest: f64) -> Vec<u64>
 }
 
 /// What collapsing an edge does, if its ends may move so.
-pub(super) fn candidate(surface: &Surface, Pair { ends: [a, b], is_feature }: Pair) -> Option<Candidate> {
+pub(super) fn candidate(surface: &Surface, Pair { ends: [a, b], is_feature }: Pair) -> Option<Collapse> {
     let freedom = |vertex: u32| surface.freedoms[vertex as usize];
     let (retained, gone) = if freedom(a) >= freedom(b) { (a, b) } else { (b, a) };
     let moves = match (freedom(retained), freedom(gone)) {
@@ -130,7 +130,7 @@ pub(super) fn candidate(surface: &Surface, Pair { ends: [a, b], is_feature }: Pa
     let value = quadric.value(point);
     let cost = value + SHORT_FIRST * weight * length_squared;
     let error = if weight > 0.0 { value / weight } else { 0.0 };
-    Some(Candidate { retained, gone, point, cost, error })
+    Some(Collapse { retained, gone, point, cost, error })
 }
 
 /// Where the error is smallest. The ends are tried, too: at the corner of a box, what draws to the middle would move it.

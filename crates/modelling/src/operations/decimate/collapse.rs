@@ -7,8 +7,8 @@ use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::candidates::{Adjacency, Candidate, Pair, candidate, index_of, order, pairs};
-use super::surface::{Merge, Surface, Triangle};
+use super::candidates::{Adjacency, Collapse, Pair, candidate, index_of, order, pairs};
+use super::surface::{Merge, ReducedTriangle, Surface};
 use crate::edit_mesh::EditMesh;
 use crate::ids::NONE;
 
@@ -38,7 +38,7 @@ pub(super) fn reduce(mesh: &EditMesh, surface: &mut Surface, goal: Goal) -> f64 
         let pairs = pairs(surface, &adjacency);
         let order = order(surface, &pairs, goal.error);
         let before = surface.triangles.len();
-        let mut round = Round {
+        let mut round = CollapseRound {
             mesh,
             adjacency,
             is_done: FixedBitSet::with_capacity(surface.points.len()),
@@ -60,7 +60,7 @@ pub(super) fn reduce(mesh: &EditMesh, surface: &mut Surface, goal: Goal) -> f64 
 
 type Few = SmallVec<[u32; 16]>;
 
-struct Round<'a> {
+struct CollapseRound<'a> {
     mesh: &'a EditMesh,
     surface: &'a mut Surface,
     adjacency: Adjacency,
@@ -72,7 +72,7 @@ struct Round<'a> {
     removed: usize,
 }
 
-impl Round<'_> {
+impl CollapseRound<'_> {
     /// Collapses edges in order. The largest error, or the given one.
     fn run(&mut self, pairs: &[Pair], order: &[u64], goal: Goal, mut largest: f64) -> f64 {
         let all = self.surface.triangles.len();
@@ -104,8 +104,8 @@ impl Round<'_> {
         self.adjacency.at(vertex).iter().filter(is_left).copied().collect()
     }
 
-    fn collapse(&mut self, candidate: &Candidate) -> bool {
-        let Candidate { retained, gone, point, .. } = *candidate;
+    fn collapse(&mut self, candidate: &Collapse) -> bool {
+        let Collapse { retained, gone, point, .. } = *candidate;
         if [retained, gone].iter().any(|&vertex| self.adjacency.at(vertex).len() > MOST_TRIANGLES) {
             return false;
         }
@@ -125,21 +125,21 @@ impl Round<'_> {
     /// Edge Contraction", 1999).
     fn preserves_topology(
         &mut self,
-        &Candidate { retained, gone, .. }: &Candidate,
+        &Collapse { retained, gone, .. }: &Collapse,
         at_retained: &[u32],
         at_gone: &[u32],
     ) -> bool {
         self.stamp += 3;
-        let (seen, common, apex) = (self.stamp, self.stamp + 1, self.stamp + 2);
+        let (visited, common, apex) = (self.stamp, self.stamp + 1, self.stamp + 2);
         for &number in at_retained {
             let vertices = self.surface.triangles[number as usize].vertices;
-            vertices.iter().for_each(|&vertex| self.near[vertex as usize] = seen);
+            vertices.iter().for_each(|&vertex| self.near[vertex as usize] = visited);
         }
         let mut in_common = 0;
         for &number in at_gone {
             let vertices = self.surface.triangles[number as usize].vertices;
             for &vertex in vertices.iter().filter(|&&vertex| vertex != gone && vertex != retained) {
-                if self.near[vertex as usize] == seen {
+                if self.near[vertex as usize] == visited {
                     self.near[vertex as usize] = common;
                     in_common += 1;
                 }
@@ -164,7 +164,7 @@ impl Round<'_> {
         if in_common != shared || at_retained.len() + at_gone.len() <= 2 * shared {
             return false;
         }
-        let is_among_common = |triangle: &Triangle, than: u32| {
+        let is_among_common = |triangle: &ReducedTriangle, than: u32| {
             triangle.vertices.iter().all(|&vertex| vertex == than || self.near[vertex as usize] == apex)
         };
         !at_gone.iter().any(|&number| {
@@ -213,7 +213,7 @@ impl Round<'_> {
                 && self.near[vertex as usize] < self.stamp
                 && self.mesh.find_edge(id(vertex), id(retained)).is_some()
         };
-        let is_all_outside = |triangle: &Triangle| {
+        let is_all_outside = |triangle: &ReducedTriangle| {
             !triangle.vertices.contains(&retained)
                 && triangle
                     .vertices
@@ -223,13 +223,11 @@ impl Round<'_> {
                     == 2
         };
         let mut triangles = at_gone.iter().map(|&number| &self.surface.triangles[number as usize]);
-        triangles.all(|triangle| {
-            !triangle.vertices.iter().any(|vertex| meets(vertex)) && !is_all_outside(triangle)
-        })
+        triangles.all(|triangle| !triangle.vertices.iter().any(&meets) && !is_all_outside(triangle))
     }
 
-    fn apply(&mut self, candidate: &Candidate, at_retained: &[u32], at_gone: &[u32]) {
-        let Candidate { retained, gone, point, .. } = *candidate;
+    fn apply(&mut self, candidate: &Collapse, at_retained: &[u32], at_gone: &[u32]) {
+        let Collapse { retained, gone, point, .. } = *candidate;
         let surface = &mut *self.surface;
         let part = part_of(surface.points[retained as usize], surface.points[gone as usize], point);
         surface.merges.push(Merge { retained, gone, part });
@@ -303,10 +301,10 @@ impl Surface {
         }
         let corner = index_of(&triangle.vertices, gone);
         triangle.vertices[corner] = retained;
-        if let Some(of) = self.values.of.get_mut(triangle.face as usize) {
-            if let Some(pair) = wedges.iter().find(|pair| pair[1] == of[corner]) {
-                of[corner] = pair[0];
-            }
+        if let Some(of) = self.values.of.get_mut(triangle.face as usize)
+            && let Some(pair) = wedges.iter().find(|pair| pair[1] == of[corner])
+        {
+            of[corner] = pair[0];
         }
     }
 }

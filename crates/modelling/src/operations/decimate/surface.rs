@@ -23,7 +23,7 @@ pub(super) enum Freedom {
 
 /// A triangle; sides go from each vertex to the next.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Triangle {
+pub(super) struct ReducedTriangle {
     pub(super) vertices: [u32; 3],
     /// For each side its index in the list of features; [`NONE`] for other sides.
     pub(super) features: [u32; 3],
@@ -58,7 +58,7 @@ pub(super) struct Surface {
     /// Vertices of faces and loose edges that are not reduced.
     pub(super) is_outside: FixedBitSet,
     pub(super) quadrics: Vec<Quadric>,
-    pub(super) triangles: Vec<Triangle>,
+    pub(super) triangles: Vec<ReducedTriangle>,
     pub(super) features: Vec<Marks>,
     /// Merged vertices, in order.
     pub(super) merges: Vec<Merge>,
@@ -82,7 +82,7 @@ impl Surface {
             let mut corners = mesh.face_corners(face);
             std::array::from_fn(|_| corners.next().expect("a triangle"))
         };
-        let triangle = |(number, &face): (u32, &FaceId)| Triangle {
+        let triangle = |(number, &face): (u32, &FaceId)| ReducedTriangle {
             vertices: corners(face).map(|corner: CornerId| indices[mesh.corner_vertex(corner).0 as usize]),
             features: [NONE; 3],
             face: number,
@@ -107,13 +107,13 @@ impl Surface {
         surface
     }
 
-    /// Marks the features' sides of triangles. For each vertex how many features end there, or more if it cannot be told
+    /// Marks the features' sides of triangles. For each vertex how many features end there, or more if it is not clear
     /// where they go on.
     fn find_features(&mut self, mesh: &EditMesh, region: &Region) -> Vec<u32> {
         let mut counts = vec![0; self.vertices.len()];
         let mut known = std::collections::BTreeMap::new();
         for index in 0..self.triangles.len() {
-            let Triangle { face, vertices, .. } = self.triangles[index];
+            let ReducedTriangle { face, vertices, .. } = self.triangles[index];
             let corners: [CornerId; 3] = self.corners(mesh, face);
             for (side, &corner) in corners.iter().enumerate() {
                 let edge = mesh.corner_edge(corner);

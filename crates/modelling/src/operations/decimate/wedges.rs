@@ -8,7 +8,7 @@ use fixedbitset::FixedBitSet;
 use trigon_math::{DVec3, DisjointSets, Vec2, Vec4};
 
 use super::quadric::Quadric;
-use super::surface::{Freedom, Merge, Surface, Triangle};
+use super::surface::{Freedom, Merge, ReducedTriangle, Surface};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, NONE};
 use crate::layers::{LayerKind, LayerValues};
@@ -99,7 +99,7 @@ impl Wedges {
         let mut quadrics = std::mem::take(&mut surface.quadrics);
         for triangle in &surface.triangles {
             let corners = surface.corners(mesh, triangle.face).map(|corner| values.at(mesh, corner));
-            let Some(frame) = Frame::of(surface, triangle) else { continue };
+            let Some(frame) = TrianglePlane::of(surface, triangle) else { continue };
             let vertices = triangle.vertices.into_iter().map(|vertex| vertex as usize);
             for vertex in vertices.filter(|&vertex| surface.freedoms[vertex] == Freedom::Free) {
                 self.areas[vertex] += frame.area;
@@ -174,15 +174,15 @@ fn groups(mesh: &EditMesh, surface: &Surface) -> Vec<[u32; 3]> {
 }
 
 /// The plane of a triangle, for linear functions in it.
-struct Frame {
+struct TrianglePlane {
     points: [DVec3; 3],
     /// Gradients of the functions that are 1 at one corner and 0 at the others.
     gradients: [DVec3; 3],
     area: f64,
 }
 
-impl Frame {
-    fn of(surface: &Surface, triangle: &Triangle) -> Option<Self> {
+impl TrianglePlane {
+    fn of(surface: &Surface, triangle: &ReducedTriangle) -> Option<Self> {
         let points = triangle.vertices.map(|vertex| surface.points[vertex as usize]);
         let cross = (points[1] - points[0]).cross(points[2] - points[0]);
         let squared = cross.length_squared();

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use trigon_math::{DVec2, DVec3, DisjointSets, Orientation, orientation, side_of_triangle};
 
-struct Triangle {
+struct HullTriangle {
     vertices: [u32; 3],
     /// Across the side from each vertex to the next.
     neighbors: [u32; 3],
@@ -53,7 +53,7 @@ fn first_tetrahedron(points: &[DVec3]) -> Option<[u32; 4]> {
     Some(if side(d) == Ordering::Less { [a, b, c, d] } else { [a, c, b, d] })
 }
 
-/// Whether three points are on a line: if they are so seen along each axis.
+/// Whether three points are on a line: if they are in each view along an axis.
 fn is_line(a: DVec3, b: DVec3, c: DVec3) -> bool {
     let along = |view: fn(DVec3) -> DVec2| orientation(view(a), view(b), view(c)) == Orientation::Collinear;
     along(|p| DVec2::new(p.x, p.y)) && along(|p| DVec2::new(p.y, p.z)) && along(|p| DVec2::new(p.z, p.x))
@@ -61,7 +61,7 @@ fn is_line(a: DVec3, b: DVec3, c: DVec3) -> bool {
 
 struct Hull<'a> {
     points: &'a [DVec3],
-    triangles: Vec<Triangle>,
+    triangles: Vec<HullTriangle>,
 }
 
 impl Hull<'_> {
@@ -79,7 +79,7 @@ impl Hull<'_> {
         let sides =
             [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
         for (vertices, neighbors) in sides {
-            self.triangles.push(Triangle { vertices, neighbors, points: Vec::new(), is_gone: false });
+            self.triangles.push(HullTriangle { vertices, neighbors, points: Vec::new(), is_gone: false });
         }
         let all: Vec<u32> = (0..self.points.len() as u32).collect();
         self.share_out(all, 0..4, waiting);
@@ -115,15 +115,15 @@ impl Hull<'_> {
 
     /// Replaces the triangles that the farthest point in front of one sees.
     fn grow(&mut self, number: u32, waiting: &mut Vec<u32>) {
-        let Triangle { vertices, points, .. } = &self.triangles[number as usize];
+        let HullTriangle { vertices, points, .. } = &self.triangles[number as usize];
         let [a, b, c] = vertices.map(|vertex| self.points[vertex as usize]);
         let normal = (b - a).cross(c - a);
         let distance = |&point: &u32| (self.points[point as usize] - a).dot(normal);
         let apex = points.iter().copied().max_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.cmp(a)));
         let apex = apex.expect("it has points in front");
-        let (seen, horizon) = self.seen_from(number, apex);
+        let (visible, horizon) = self.visible_from(number, apex);
         let mut loose: Vec<u32> = Vec::new();
-        for triangle in seen {
+        for triangle in visible {
             let triangle = &mut self.triangles[triangle as usize];
             triangle.is_gone = true;
             loose.append(&mut triangle.points);
@@ -137,7 +137,7 @@ impl Hull<'_> {
             let side = self.side_of(beyond, to);
             self.triangles[beyond as usize].neighbors[side] = new;
             let (vertices, neighbors) = ([from, to, apex], [beyond, 0, 0]);
-            self.triangles.push(Triangle { vertices, neighbors, points: Vec::new(), is_gone: false });
+            self.triangles.push(HullTriangle { vertices, neighbors, points: Vec::new(), is_gone: false });
         }
         for new in first..self.triangles.len() as u32 {
             let next = starting[&self.triangles[new as usize].vertices[1]];
@@ -151,27 +151,27 @@ impl Hull<'_> {
 
     /// The triangles that a point is in front of, from one of them on, and the sides where they end: from, to, and the
     /// triangle beyond.
-    fn seen_from(&self, number: u32, point: u32) -> (Vec<u32>, Vec<[u32; 3]>) {
-        let mut seen = vec![number];
-        let mut is_seen: BTreeMap<u32, bool> = BTreeMap::from([(number, true)]);
+    fn visible_from(&self, number: u32, point: u32) -> (Vec<u32>, Vec<[u32; 3]>) {
+        let mut visible = vec![number];
+        let mut is_visible: BTreeMap<u32, bool> = BTreeMap::from([(number, true)]);
         let mut horizon = Vec::new();
         let mut next = 0;
-        while let Some(&here) = seen.get(next) {
+        while let Some(&here) = visible.get(next) {
             next += 1;
             for side in 0..3 {
-                let Triangle { vertices, neighbors, .. } = &self.triangles[here as usize];
+                let HullTriangle { vertices, neighbors, .. } = &self.triangles[here as usize];
                 let beyond = neighbors[side];
-                let known = is_seen.get(&beyond).copied();
+                let known = is_visible.get(&beyond).copied();
                 let sees = known.unwrap_or_else(|| self.is_in_front(beyond, point));
-                is_seen.insert(beyond, sees);
+                is_visible.insert(beyond, sees);
                 if !sees {
                     horizon.push([vertices[side], vertices[(side + 1) % 3], beyond]);
                 } else if known.is_none() {
-                    seen.push(beyond);
+                    visible.push(beyond);
                 }
             }
         }
-        (seen, horizon)
+        (visible, horizon)
     }
 
     /// The side of a triangle that starts at a vertex.

@@ -100,7 +100,7 @@ proptest! {
         thickness in 0.01f64..2.0,
         offset in -1.0f64..1.0,
     ) {
-        let angles: Vec<f64> = angles.into_iter().map(|angle| f64::from(angle) / 1000.0 * 6.28).collect();
+        let angles: Vec<f64> = angles.into_iter().map(|angle| f64::from(angle) / 160.0).collect();
         let mesh = polygon(&angles, tilt);
         let area = mesh.face_area(FaceId(0));
         prop_assume!(area > 0.01);

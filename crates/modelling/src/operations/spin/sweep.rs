@@ -14,7 +14,7 @@ use crate::slots::NewElements;
 const ON_AXIS: f64 = 1e-6;
 
 /// An edge that is swept.
-struct Side {
+struct SweptEdge {
     edge: EdgeId,
     /// Its ends in the list of vertices, in the order in which faces run along the given edge.
     ends: [usize; 2],
@@ -27,12 +27,12 @@ pub(super) struct Sweep {
     vertices: Vec<VertexId>,
     /// Whether each vertex is on the axis and stays single.
     is_fixed: Vec<bool>,
-    sides: Vec<Side>,
+    sides: Vec<SweptEdge>,
 }
 
 /// The vertices and edges of a step.
 #[derive(Clone)]
-struct Ring {
+struct SweptRing {
     vertices: Vec<VertexId>,
     /// By sides.
     edges: Vec<EdgeId>,
@@ -63,7 +63,7 @@ impl Sweep {
         }
         let number = |vertex: VertexId| numbers.get(vertex.0).expect("all are listed") as usize;
         let starts = mesh.wall_starts(&edges);
-        let side = |(&edge, &start): (&EdgeId, &VertexId)| Side {
+        let side = |(&edge, &start): (&EdgeId, &VertexId)| SweptEdge {
             edge,
             ends: [start, mesh.other_vertex(edge, start)].map(number),
             source: mesh.edge_corners(edge).next(),
@@ -116,7 +116,7 @@ impl Sweep {
     }
 
     pub(super) fn run(&self, mesh: &mut EditMesh, turns: &Turns) -> Spun {
-        let first = Ring {
+        let first = SweptRing {
             vertices: self.vertices.clone(),
             edges: self.sides.iter().map(|side| side.edge).collect(),
         };
@@ -143,8 +143,8 @@ impl Sweep {
         turns: &Turns,
         step: u32,
         points: &[DVec3],
-        first: &Ring,
-    ) -> Ring {
+        first: &SweptRing,
+    ) -> SweptRing {
         let (rotation, way) = turns.after(step);
         let mut vertices = Vec::with_capacity(points.len());
         for ((&vertex, &point), &is_fixed) in first.vertices.iter().zip(points).zip(&self.is_fixed) {
@@ -168,10 +168,10 @@ impl Sweep {
             edge
         });
         let edges = edges.collect();
-        Ring { vertices, edges }
+        SweptRing { vertices, edges }
     }
 
-    fn add_faces(&self, mesh: &mut EditMesh, from: &Ring, to: &Ring, spun: &mut Spun) {
+    fn add_faces(&self, mesh: &mut EditMesh, from: &SweptRing, to: &SweptRing, spun: &mut Spun) {
         let rails: Vec<Option<EdgeId>> = (0..self.vertices.len())
             .map(|index| {
                 let (a, b) = (from.vertices[index], to.vertices[index]);

@@ -32,7 +32,7 @@ fn a_vertex_becomes_a_circle() {
     assert_eq!((mesh.vertex_count(), mesh.edge_count(), made.vertices), (5, 5, vec![VertexId(0)]));
     for vertex in mesh.vertices() {
         let point = mesh.point(vertex);
-        assert!((point.x.hypot(point.z) - 2.0).abs() < 1e-6 && point.y == 1.0, "{point}");
+        assert!((DVec3::new(point.x, 0.0, point.z).length() - 2.0).abs() < 1e-6 && point.y == 1.0, "{point}");
     }
 }
 
