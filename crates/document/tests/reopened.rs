@@ -37,6 +37,7 @@ fn command() -> impl Strategy<Value = Value> {
         json!({"op": "duplicate_objects"}),
         json!({"op": "duplicate_objects", "linked": true}),
         json!({"op": "join_objects"}),
+        json!({"op": "boolean", "operation": "union"}),
         json!({"op": "separate"}),
         json!({"op": "separate", "by": "loose_parts"}),
         json!({"op": "separate", "by": "material"}),

@@ -6,6 +6,7 @@
 
 mod action;
 mod apply_transform;
+mod boolean;
 mod cut;
 mod delete;
 mod element_marks;
@@ -40,6 +41,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use action::Action;
 pub use action::{ObjectName, Outcome};
 pub use apply_transform::ApplyTransform;
+pub use boolean::Boolean;
 pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
@@ -211,6 +213,8 @@ commands! {
     Separate("Separate", false),
     /// Joins several objects into one.
     JoinObjects("Join", false),
+    /// Combines the volumes of objects, or of parts of a mesh.
+    Boolean("Boolean", false),
     /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
     /// Shows meshes as subdivision surfaces while their cage is edited.

@@ -58,6 +58,9 @@ actions! {
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
+    "Edit/Boolean" "boolean.union" "Union" "" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
+    "Edit/Boolean" "boolean.difference" "Difference" "" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
+    "Edit/Boolean" "boolean.intersection" "Intersection" "" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
     "Edit/Parent" "parent.menu" "Parent Menu" "Ctrl+P" Objects Ui(UiRequest::Popup("Edit/Parent")) => "Chooses how objects hang on the active one.";
     "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: true }) => "Hangs the selected objects on the active one; they stay where they are.";
     "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";
@@ -190,6 +193,9 @@ actions! {
     "Mesh" "mesh.triangulate" "Triangulate" "Ctrl+T" Elements Run(r#"{"op":"triangulate"}"#) => "Cuts faces into triangles.";
     "Mesh" "mesh.tris_to_quads" "Tris to Quads" "Alt+J" Elements Run(r#"{"op":"tris_to_quads"}"#) => "Joins triangles into quads.";
     "Mesh" "mesh.symmetrize" "Symmetrize" "" Elements Run(r#"{"op":"symmetrize"}"#) => "Makes faces symmetric about x = 0; adjust the plane with F9.";
+    "Mesh/Boolean" "mesh.boolean_union" "Union" "" Elements Run(r#"{"op":"boolean","operation":"union"}"#) => "Unites the selected closed part of a mesh with its other faces.";
+    "Mesh/Boolean" "mesh.boolean_difference" "Difference" "" Elements Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected closed part of a mesh out of its other faces.";
+    "Mesh/Boolean" "mesh.boolean_intersection" "Intersection" "" Elements Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves what is within the selected part of a mesh and within its other faces.";
     "Mesh" "mesh.repair" "Clean Up" "" EditMode Run(r#"{"op":"repair"}"#) => "Removes loose and duplicate elements.";
     "Mesh" "mesh.reset_vertices" "Reset to Original Positions" "" Elements Run(r#"{"op":"reset_vertices"}"#) => "Moves vertices back to their original positions.";
     "Mesh/Mirror" "mesh.mirror_x" "X" "Ctrl+M" Elements Run(r#"{"op":"mirror"}"#) => "Mirrors the selection in x, about the origin of its object.";

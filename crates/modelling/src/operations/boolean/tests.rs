@@ -329,3 +329,24 @@ fn a_thousand_spheres() {
     check_closed(&mesh);
     assert!(volume(&mesh) < 1000.0 * volume(&sphere), "they overlap");
 }
+
+/// As for the operations of `memory_tests.rs`, whose mesh is open.
+#[test]
+fn what_would_take_too_much_memory_is_refused_and_changes_nothing() {
+    let sphere = editable(with_affine_values(primitives::uv_sphere(1.0, 16, 8)));
+    let tool = BooleanTool { mesh: &sphere, transform: moved_by(0.5, 0.0, 0.0) };
+    let mut mesh = sphere.clone();
+    let bytes = mesh.bytes() as u64;
+    let refusal = mesh
+        .transaction_within(bytes, |mesh| mesh.boolean(&[tool], Union))
+        .map(drop)
+        .expect_err("no byte more");
+    let Refusal::Memory { needed, allowed } = refusal else { panic!("{refusal}") };
+    assert_eq!(allowed, bytes, "as given");
+    assert!(mesh == sphere && mesh.bytes() as u64 == bytes, "no list has grown");
+    let again = mesh.transaction_within(needed - 1, |mesh| mesh.boolean(&[tool], Union));
+    assert!(again.is_err() && mesh == sphere, "with a byte too little");
+    mesh.transaction_within(needed, |mesh| mesh.boolean(&[tool], Union))
+        .map(drop)
+        .expect("what is needed is enough");
+}

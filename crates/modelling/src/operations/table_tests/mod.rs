@@ -4,7 +4,7 @@
 mod inputs;
 mod oracles;
 
-use trigon_math::{DVec3, Plane, Vec3, area_vector};
+use trigon_math::{DAffine3, DVec3, Plane, Vec3, area_vector};
 use trigon_mesh::triangulate_polygon;
 
 use super::*;
@@ -78,7 +78,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 45] = [
+const OPERATIONS: [Operation; 48] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -205,7 +205,26 @@ const OPERATIONS: [Operation; 45] = [
         mesh.collapse_zero_length_edges(0.7).map(drop)
     }),
     operation("split off", Promise::Nothing, |mesh, on| mesh.split_off(&on.faces).map(drop)),
+    operation("unite with a moved copy", Promise::Closed, |mesh, on| {
+        boolean_with_a_copy(mesh, on, BooleanOperation::Union)
+    }),
+    operation("cut out a moved copy", Promise::Closed, |mesh, on| {
+        boolean_with_a_copy(mesh, on, BooleanOperation::Difference)
+    }),
+    operation("intersect with a moved copy", Promise::Closed, |mesh, on| {
+        boolean_with_a_copy(mesh, on, BooleanOperation::Intersection)
+    }),
 ];
+
+/// Every third time it is moved along the axes by halves of a metre, and turned otherwise.
+fn boolean_with_a_copy(mesh: &mut EditMesh, on: &Chosen, operation: BooleanOperation) -> Result<(), Refusal> {
+    let number = on.number as f64;
+    let offset = DVec3::new((number / 3.0).floor() / 2.0 - 2.0, 0.5, 0.0);
+    let angle = if on.number % 3 == 0 { 0.0 } else { number };
+    let transform = DAffine3::from_translation(offset) * DAffine3::from_rotation_z(angle);
+    let copy = mesh.clone();
+    mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
+}
 
 /// Runs one operation on one input with one choice.
 fn check(input: &Input, operation: &Operation, number: u64) -> Result<(), String> {
