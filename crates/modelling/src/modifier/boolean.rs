@@ -19,7 +19,7 @@ pub enum BooleanOperation {
 }
 
 /// Combines the volume inside the mesh with that inside another object, where it stands. Both have to be closed. The other
-/// object is used after its own modifiers except booleans.
+/// object is used after its own modifiers except booleans. Its faces have the material slots of this mesh with their numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BooleanModifier {
