@@ -44,6 +44,14 @@ pub enum EditError {
         "object \"{0}\" would be placed or scaled beyond 3.4e38, the largest number of a coordinate: use a smaller value"
     )]
     Overflow(String),
+    /// A mesh operation failed because of one of several objects.
+    #[error("object \"{name}\": {refusal}")]
+    OfObject {
+        /// The object's name.
+        name: String,
+        /// The reason.
+        refusal: Refusal,
+    },
     /// A mesh operation failed.
     #[error(transparent)]
     Mesh(#[from] Refusal),

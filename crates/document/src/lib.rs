@@ -9,6 +9,7 @@ mod display;
 mod document;
 mod document_file;
 mod error;
+mod objects;
 mod recovery;
 mod revision;
 mod script;

@@ -98,6 +98,13 @@ impl Arguments {
             let wrong = [json!(null), json!(-1), json!("wrong"), json!([]), json!(1e300)];
             return wrong[self.0.below(wrong.len())].clone();
         }
+        // A variant with its tag, and its parameters by reference.
+        let tag = of["properties"].as_object().filter(|_| !of["$ref"].is_null());
+        if let Some((tag, name)) = tag.and_then(|tag| tag.iter().next()) {
+            let mut variant = self.object(resolved(of));
+            variant[tag] = name["const"].clone();
+            return variant;
+        }
         let of = resolved(of);
         if !of["const"].is_null() {
             return of["const"].clone();

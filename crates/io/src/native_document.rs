@@ -134,7 +134,7 @@ impl NativeDocument {
     }
 
     /// The scene for other programs; see [`export`](crate::export). Edit data are left out, and meshes are written
-    /// without their subdivision surfaces. Images are those of the loaded file, unless the options name another.
+    /// as they are edited, without their modifiers. Images are those of the loaded file, unless the options name another.
     ///
     /// # Errors
     /// As [`export`](crate::export).

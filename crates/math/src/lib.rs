@@ -54,7 +54,7 @@ pub use glam::{
 };
 
 pub use fixed::{Fixed, FixedPoint};
-pub use predicates::{Orientation, is_mirroring, orientation, orientation_fixed};
+pub use predicates::{Orientation, is_mirroring, orientation, orientation_fixed, side_of_triangle};
 
 pub use bounds::Bounds3;
 pub use bvh::{Bvh, Ray, RayHit};

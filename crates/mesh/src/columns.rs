@@ -124,8 +124,9 @@ pub struct EditData {
     pub hidden_faces: Vec<u32>,
     /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
     pub sharp_corners: Vec<u32>,
-    /// In how many Catmull-Clark levels the mesh is shown.
-    pub subdivision: u32,
+    /// The stack of modifiers that the mesh is shown with, as text that `trigon-modelling` reads and writes; empty without
+    /// any.
+    pub modifiers: String,
 }
 
 /// The marks of one edge.

@@ -1,5 +1,5 @@
 //! The data of an editable mesh that a [`Mesh`] does not have, as [`EditData`]: original positions, marks of
-//! edges, hidden elements. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
+//! edges, hidden elements, modifiers. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
 //! holds both loses nothing.
 
 use thiserror::Error;
@@ -11,11 +11,12 @@ use super::edit_mesh::EditMesh;
 use super::from_mesh::LeftOut;
 use super::ids::{CornerId, FaceId, VertexId};
 use super::layers::LayerKind;
+use super::modifier::StackedModifier;
 use super::records::{HIDDEN, SEAM, SHARP};
 use super::to_mesh::ElementMap;
 
 /// Why edit data does not belong to a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum EditDataError {
     /// There is not one first position for each vertex.
@@ -38,9 +39,9 @@ pub enum EditDataError {
     /// There is no such corner.
     #[error("corner {0} has a normal made by sharp edges and does not exist")]
     NoSuchCorner(u32),
-    /// There are too many levels.
-    #[error("the mesh is shown in {0} levels of subdivision, and 5 are the most")]
-    Subdivision(u32),
+    /// The modifiers are not as they are written, or out of their ranges; the reason.
+    #[error("the modifiers cannot be read: {0}")]
+    Modifiers(String),
 }
 
 impl EditMesh {
@@ -62,7 +63,7 @@ impl EditMesh {
             hidden_vertices: hidden_vertices.map(|(index, _)| index).collect(),
             hidden_faces: hidden_faces.map(|(index, _)| index).collect(),
             sharp_corners: self.sharp_corners(map),
-            subdivision: self.subdivision,
+            modifiers: self.modifiers_as_text(),
         }
     }
 
@@ -136,7 +137,7 @@ impl EditMesh {
     /// ```
     ///
     /// # Errors
-    /// The data name what the mesh has not, or more levels than [`EditMesh::MOST_SUBDIVISION`].
+    /// The data name what the mesh has not, or modifiers that cannot be in a stack.
     pub fn from_mesh_and_data(mesh: &Mesh, data: &EditData) -> Result<(Self, LeftOut), EditDataError> {
         let (mut editable, mut left_out) = Self::from_mesh_uncut(mesh);
         let (expected, found) = (editable.vertex_count(), data.first_positions.len());
@@ -160,14 +161,18 @@ impl EditMesh {
             editable.set_face_hidden(face, true);
         }
         editable.clear_sharp_corners(&data.sharp_corners)?;
-        if data.subdivision > Self::MOST_SUBDIVISION {
-            return Err(EditDataError::Subdivision(data.subdivision));
-        }
-        // Not refused for the memory of the surface: opening the file does not make that.
-        editable.subdivision = data.subdivision;
+        editable.modifiers = modifiers_of_text(&data.modifiers)?;
         // Faces and corners were named by their numbers until here.
         left_out.cut_faces = editable.make_all_simple();
         Ok((editable, left_out))
+    }
+
+    /// The stack of modifiers as JSON; empty without any.
+    fn modifiers_as_text(&self) -> String {
+        if self.modifiers.is_empty() {
+            return String::new();
+        }
+        serde_json::to_string(&self.modifiers).expect("names and finite numbers can be written")
     }
 
     fn set_edge_mark(&mut self, mark: &EdgeMark) -> Result<(), EditDataError> {
@@ -181,6 +186,24 @@ impl EditMesh {
         self.set_crease(edge, mark.crease);
         Ok(())
     }
+}
+
+/// The stack of modifiers that a text describes. It is not refused for the memory of what the modifiers make: opening a file
+/// does not make that.
+fn modifiers_of_text(text: &str) -> Result<Vec<StackedModifier>, EditDataError> {
+    if text.is_empty() {
+        return Ok(Vec::new());
+    }
+    let stack: Vec<StackedModifier> =
+        serde_json::from_str(text).map_err(|error| EditDataError::Modifiers(error.to_string()))?;
+    let most = EditMesh::MOST_MODIFIERS;
+    if stack.len() > most {
+        return Err(EditDataError::Modifiers(format!("there are {}, and {most} are the most", stack.len())));
+    }
+    for stacked in &stack {
+        stacked.modifier.check().map_err(|refusal| EditDataError::Modifiers(refusal.to_string()))?;
+    }
+    Ok(stack)
 }
 
 #[cfg(test)]
@@ -263,7 +286,11 @@ mod tests {
         assert_eq!(refused(edge([0, u32::MAX])), EditDataError::NoSuchEdge([0, u32::MAX]), "no such vertex");
         refused(EditData { hidden_vertices: vec![8], ..EditData::default() });
         refused(EditData { hidden_faces: vec![6], ..EditData::default() });
-        refused(EditData { subdivision: 6, ..EditData::default() });
+        let surface = |levels: u32| {
+            format!(r#"[{{"modifier":{{"kind":"subdivision","levels":{levels}}},"is_on":true}}]"#)
+        };
+        refused(EditData { modifiers: surface(6), ..EditData::default() });
+        refused(EditData { modifiers: "[{}]".to_owned(), ..EditData::default() });
         refused(EditData { first_positions: vec![Vec3::ZERO; 7], ..EditData::default() });
     }
 }

@@ -8,6 +8,7 @@ use trigon_math::{DVec3, Vec3};
 use super::column::Column;
 use super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use super::layers::Layer;
+use super::modifier::StackedModifier;
 use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, Slots, VertexRecord};
 use super::refusal::Refusal;
 
@@ -52,8 +53,8 @@ pub struct EditMesh {
     pub(super) vertex_layers: Vec<Layer>,
     pub(super) corner_layers: Vec<Layer>,
     pub(super) slots: AllSlots,
-    /// In how many Catmull-Clark levels it is shown.
-    pub(super) subdivision: u32,
+    /// What is shown and exported is the mesh after these.
+    pub(super) modifiers: Vec<StackedModifier>,
     /// Whether a transaction is active.
     pub(super) is_recording: bool,
     /// How many bytes of memory an operation may let the mesh take: [`Self::MEMORY`] but within
@@ -89,7 +90,7 @@ impl EditMesh {
             vertex_layers: Vec::new(),
             corner_layers: Vec::new(),
             slots: AllSlots::default(),
-            subdivision: 0,
+            modifiers: Vec::new(),
             is_recording: false,
             memory: Self::MEMORY,
         }

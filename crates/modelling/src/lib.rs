@@ -11,7 +11,8 @@
 //! # Modules
 //! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the stored data),
 //! `edit_mesh` (all columns). `slots` adds and removes single elements, `rings` links and unlinks them, `walk`
-//! goes from one to its neighbours. `euler` has the elementary changes of which `operations` consist.
+//! goes from one to its neighbours. `euler` has the elementary changes of which `operations` consist. `modifier` has
+//! operations as data, and `stack` evaluates a mesh's stack of them.
 
 mod blends;
 mod column;
@@ -24,6 +25,7 @@ mod ids;
 mod inspect;
 mod layers;
 mod measure;
+mod modifier;
 mod numbering;
 mod operations;
 mod records;
@@ -32,7 +34,7 @@ mod rings;
 mod sharp_normals;
 mod skin;
 mod slots;
-mod subdivision;
+mod stack;
 #[cfg(test)]
 mod tests;
 mod to_mesh;
@@ -50,8 +52,14 @@ pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
+pub use modifier::{
+    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, BooleanOperation, DecimateModifier,
+    MirrorModifier, Modifier, ScrewModifier, SolidifyModifier, StackedModifier, SubdivisionModifier,
+    TriangulateModifier, WeldModifier,
+};
 pub use operations::*;
-pub use refusal::Refusal;
+pub use refusal::{Refusal, SolidFault};
+pub use stack::{Evaluation, ModifierObjects, ModifierState, NoObjects, ObjectState};
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
 

@@ -1,6 +1,7 @@
 //! Why an operation did nothing.
 
 use thiserror::Error;
+use trigon_math::DVec3;
 
 use super::ids::{CornerId, EdgeId, FaceId, VertexId};
 
@@ -46,6 +47,16 @@ pub enum Refusal {
         /// What is allowed, as "at least 1".
         range: &'static str,
     },
+    /// A mesh does not bound a volume.
+    #[error("{operation} needs closed meshes whose faces look outwards: {fault} near {}", position_in_words(*position))]
+    NotSolid {
+        /// What was to be done.
+        operation: &'static str,
+        /// What is wrong, and what to do.
+        fault: SolidFault,
+        /// Where, in metres in the space of the mesh.
+        position: DVec3,
+    },
     /// A vertex would lie farther away than its coordinates can say.
     #[error("{0} would lie beyond 3.4e38, the largest number of a coordinate: use a smaller value")]
     Overflow(VertexId),
@@ -64,6 +75,26 @@ pub enum Refusal {
     /// The mesh would have more elements than 32-bit indices can name.
     #[error("the mesh would have too many elements for 32-bit indices: do it to a part of it")]
     TooMany,
+}
+
+/// Why a mesh does not bound a volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SolidFault {
+    /// A hole begins at an edge.
+    #[error("fill the hole at {0}, or merge vertices by distance,")]
+    Open(EdgeId),
+    /// Faces at an edge look in different directions.
+    #[error("recalculate the normals of the faces at {0}, which look different ways,")]
+    Turned(EdgeId),
+    /// A face of a part that looks inwards.
+    #[error("recalculate the normals of the part with {0}, which looks inwards,")]
+    InsideOut(FaceId),
+}
+
+/// A position as a user reads it.
+fn position_in_words(position: DVec3) -> String {
+    format!("({:.4}, {:.4}, {:.4})", position.x, position.y, position.z)
 }
 
 /// Bytes as a user reads them, as "1.5 GiB".

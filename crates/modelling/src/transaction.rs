@@ -9,6 +9,7 @@ use super::column::ColumnDifference;
 use super::edit_mesh::{AllSlots, EditMesh};
 use super::ids::VertexId;
 use super::layers::{Layer, LayerDifference};
+use super::modifier::StackedModifier;
 use super::records::{CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
 use super::refusal::Refusal;
 
@@ -29,8 +30,8 @@ pub struct Difference {
     pub(super) vertex_layers: LayersDifference,
     pub(super) corner_layers: LayersDifference,
     pub(super) slots: AllSlots,
-    /// In how many levels the other state is shown, if that differs.
-    subdivision: Option<u32>,
+    /// The modifiers of the other state, if they differ.
+    modifiers: Option<Vec<StackedModifier>>,
 }
 
 /// Of the layers of one kind of element. A change may add layers after the others.
@@ -124,7 +125,7 @@ impl EditMesh {
 /// A transaction that runs.
 struct Recording {
     slots: AllSlots,
-    subdivision: u32,
+    modifiers: Vec<StackedModifier>,
     vertex_layers: usize,
     corner_layers: usize,
 }
@@ -141,7 +142,7 @@ impl Recording {
         mesh.vertex_layers.iter_mut().for_each(Layer::begin);
         mesh.corner_layers.iter_mut().for_each(Layer::begin);
         let (vertex_layers, corner_layers) = (mesh.vertex_layers.len(), mesh.corner_layers.len());
-        Self { slots: mesh.slots, subdivision: mesh.subdivision, vertex_layers, corner_layers }
+        Self { slots: mesh.slots, modifiers: mesh.modifiers.clone(), vertex_layers, corner_layers }
     }
 
     fn finish(self, mesh: &mut EditMesh) -> Difference {
@@ -160,7 +161,7 @@ impl Recording {
             vertex_layers: layers(&mut mesh.vertex_layers, self.vertex_layers),
             corner_layers: layers(&mut mesh.corner_layers, self.corner_layers),
             slots: self.slots,
-            subdivision: (self.subdivision != mesh.subdivision).then_some(self.subdivision),
+            modifiers: (self.modifiers != mesh.modifiers).then_some(self.modifiers),
         }
     }
 }
@@ -187,7 +188,7 @@ impl Difference {
             vertex_layers: none(),
             corner_layers: none(),
             slots,
-            subdivision: None,
+            modifiers: None,
         }
     }
 
@@ -215,29 +216,35 @@ impl Difference {
         self.vertex_layers.apply(&mut mesh.vertex_layers);
         self.corner_layers.apply(&mut mesh.corner_layers);
         std::mem::swap(&mut mesh.slots, &mut self.slots);
-        if let Some(levels) = &mut self.subdivision {
-            std::mem::swap(&mut mesh.subdivision, levels);
+        if let Some(modifiers) = &mut self.modifiers {
+            std::mem::swap(&mut mesh.modifiers, modifiers);
         }
     }
 
     /// Whether both states are the same.
     #[must_use]
     pub fn is_empty(&self) -> bool {
+        self.modifiers.is_none() && !self.changes_elements()
+    }
+
+    /// Whether the two states differ in more than their modifiers.
+    #[must_use]
+    pub fn changes_elements(&self) -> bool {
         // What only added elements takes no memory until it is undone.
-        self.vertices.is_none()
+        let is_same = self.vertices.is_none()
             && self.positions.is_none()
             && self.first_positions.is_none()
             && self.edges.is_none()
             && self.corners.is_none()
             && self.faces.is_none()
-            && self.subdivision.is_none()
-            && [&self.vertex_layers, &self.corner_layers].iter().all(|layers| layers.is_empty())
+            && [&self.vertex_layers, &self.corner_layers].iter().all(|layers| layers.is_empty());
+        !is_same
     }
 
-    /// Whether the two states are shown in different numbers of Catmull-Clark levels.
+    /// Whether the two states have different modifiers.
     #[must_use]
-    pub fn changes_subdivision(&self) -> bool {
-        self.subdivision.is_some()
+    pub fn changes_modifiers(&self) -> bool {
+        self.modifiers.is_some()
     }
 
     /// The memory that it takes, in bytes.
@@ -254,6 +261,7 @@ impl Difference {
             + of(&self.faces)
             + self.vertex_layers.bytes()
             + self.corner_layers.bytes()
+            + self.modifiers.as_ref().map_or(0, |stack| size_of_val(stack.as_slice()))
     }
 }
 

@@ -144,7 +144,8 @@ impl Pointing {
         let mesh = document.nodes().node(hit.node)?.mesh?;
         let face = *document.shown_elements(mesh)?.faces.get(hit.face?)?;
         document.selection().of(mesh)?;
-        Some((mesh, face))
+        // A face that modifiers made between others is none of the mesh.
+        document.mesh(mesh)?.has_face(face).then_some((mesh, face))
     }
 }
 

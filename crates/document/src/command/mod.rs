@@ -6,6 +6,7 @@
 
 mod action;
 mod apply_transform;
+mod boolean;
 mod cut;
 mod delete;
 mod element_marks;
@@ -15,6 +16,7 @@ mod import;
 mod light;
 mod material;
 mod mirror;
+mod modifier;
 mod move_uvs;
 mod parts;
 mod paste;
@@ -40,6 +42,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use action::Action;
 pub use action::{ObjectName, Outcome};
 pub use apply_transform::ApplyTransform;
+pub use boolean::Boolean;
 pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
@@ -50,6 +53,10 @@ pub use light::{AddCamera, SetLight};
 pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
 pub use mirror::{FlipNormals, Mirror, MirrorPlane, RecalculateNormals, Repair, Symmetrize};
 pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs};
+pub use modifier::{
+    AddModifier, ApplyModifier, ApplySubdivision, MoveModifier, RemoveModifier, SetModifier, SetSubdivision,
+    ShowModifier,
+};
 pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
@@ -71,16 +78,17 @@ pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
 pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
 pub use space::TransformSpace;
-pub use surface::{
-    ApplySubdivision, Bridge, CatmullClark, ConnectVertices, Fill, GridFill, SetSubdivision, Triangulate,
-    TrisToQuads,
-};
+pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads};
 pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
-pub use trigon_modelling::{BevelWidth, InnerMiter, OuterMiter, QuadLength, UnwrapMethod};
+pub use trigon_modelling::{
+    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation,
+    DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, QuadLength, ScrewModifier, SolidifyModifier,
+    SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
+};
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 
 /// Lists all commands: variant, type, display name.
@@ -207,12 +215,26 @@ commands! {
     Separate("Separate", false),
     /// Joins several objects into one.
     JoinObjects("Join", false),
+    /// Combines the volumes of objects, or of parts of a mesh.
+    Boolean("Boolean", false),
     /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
     /// Shows meshes as subdivision surfaces while their cage is edited.
     SetSubdivision("Subdivision Surface", false),
     /// Replaces meshes with their subdivision surfaces.
     ApplySubdivision("Apply Subdivision", false),
+    /// Adds a modifier to the stack of an object's mesh.
+    AddModifier("Add Modifier", false),
+    /// Gives a modifier other parameters.
+    SetModifier("Set Modifier", false),
+    /// Switches a modifier on or off.
+    ShowModifier("Show/Hide Modifier", false),
+    /// Changes the order of modifiers.
+    MoveModifier("Move Modifier", false),
+    /// Removes a modifier.
+    RemoveModifier("Remove Modifier", false),
+    /// Changes a mesh as a modifier says.
+    ApplyModifier("Apply Modifier", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
     /// Joins triangles into quads.

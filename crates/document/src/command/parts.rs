@@ -162,7 +162,7 @@ fn join(
 }
 
 /// Removes a node. Its children stay in place and move to its parent.
-fn remove_alone(scene: &mut Scene, id: NodeId) {
+pub(super) fn remove_alone(scene: &mut Scene, id: NodeId) {
     let Some(node) = scene.node(id) else { return };
     let (parent, children) = (node.parent(), node.children().to_vec());
     let transform = node.transform.to_affine();

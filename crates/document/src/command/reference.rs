@@ -100,6 +100,9 @@ fn choices(definition: &Value) -> String {
             let properties = variant["properties"].as_object()?;
             // The tag that identifies the variant.
             let (tag, name) = properties.iter().find_map(|(tag, of)| Some((tag, of["const"].as_str()?)))?;
+            if !variant["$ref"].is_null() {
+                return Some(format!("`\"{tag}\": \"{name}\"` with the parameters of {}.", type_of(variant)));
+            }
             let parameters = properties.iter().filter(|(key, _)| *key != tag);
             let parameters = parameters.map(|(key, of)| format!("`{key}` ({}{})", type_of(of), limits(of)));
             let parameters = parameters.collect::<Vec<_>>().join(", ");

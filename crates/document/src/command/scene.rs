@@ -8,6 +8,7 @@ use trigon_mesh::math::{DVec3, Vec3};
 use trigon_mesh::{Mesh, primitives};
 use trigon_scene::{Light, Material, Node, NodeId};
 
+use super::modifier::rename_in_modifiers;
 use super::paste::add_to_edited;
 use super::{Action, ObjectName, Outcome};
 use crate::error::EditError;
@@ -147,7 +148,8 @@ impl Action for RenameObject {
         let id = self.object.find(change.scene())?;
         let name = Names::without(change.scene(), &[id].into()).take(&self.name);
         let node = change.scene_mut().node_mut(id).expect("it was just found");
-        node.name.clone_from(&name);
+        let before = std::mem::replace(&mut node.name, name.clone());
+        rename_in_modifiers(change, &before, &name)?;
         if name == self.name {
             return Ok(Outcome::silent());
         }

@@ -1,11 +1,11 @@
 //! The document's scene for drawing.
 
 use trigon_mesh::Mesh;
-use trigon_modelling::{ElementMap, ElementNumbers};
+use trigon_modelling::{ElementMap, ElementNumbers, ModifierState};
 use trigon_scene::{MeshId, Scene};
 
 use super::Document;
-use crate::state::{MarkedElements, Outdated, SceneChange, State, Untold, shown_levels};
+use crate::state::{MarkedElements, Outdated, SceneChange, State, Untold};
 
 impl Document {
     /// The scene as it is now, for drawing. Its meshes follow the edits since the last call: in
@@ -17,19 +17,24 @@ impl Document {
         &file.native.scene
     }
 
-    /// The scene as an image shows it: subdivision surfaces instead of the meshes that they follow, in as many
-    /// levels as a view shows, and what is hidden of meshes. Copies the nodes, and no mesh that is shown as it is.
+    /// The scene as an image shows it: meshes after their modifiers, with what a view leaves out of those
+    /// ([`ModifierState`](trigon_modelling::ModifierState)), and what is hidden of meshes. Copies the nodes, and no mesh that is
+    /// shown as it is.
     pub fn scene_to_render(&mut self) -> Scene {
         let mut scene = self.scene().clone();
-        for (&id, edited) in &self.state.file.edited {
-            let levels = shown_levels(edited);
-            if levels > 0
-                && let Ok(surface) = edited.to_subdivided_mesh(levels)
-            {
-                scene.replace_mesh(id, surface).expect("an edited mesh is in the scene");
+        let State { file, shown, .. } = &mut self.state;
+        for (&id, _) in file.edited.iter().filter(|(_, edited)| !edited.modifiers().is_empty()) {
+            if let Some(mesh) = shown.evaluate(id, &file.native.scene, &file.edited).to_mesh() {
+                scene.replace_mesh(id, mesh).expect("an edited mesh is in the scene");
             }
         }
         scene
+    }
+
+    /// What a view shows of the modifiers of a mesh, in the order of its stack; none if it was never edited.
+    pub fn modifier_states(&mut self, id: MeshId) -> Vec<ModifierState> {
+        let State { file, shown, .. } = &mut self.state;
+        shown.evaluate(id, &file.native.scene, &file.edited).states().cloned().collect()
     }
 
     /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this
@@ -64,9 +69,7 @@ impl Document {
         }
         let mut changes: Vec<_> = is_first.then_some(SceneChange::Whole).into_iter().collect();
         changes.extend(untold.take(&file.native.scene, &shown.visible));
-        for (id, visible) in &mut shown.visible {
-            changes.extend(file.edited.get(id).and_then(|edited| visible.take(*id, edited)));
-        }
+        changes.extend(shown.take_visible(&file.native.scene, &file.edited));
         changes
     }
 
@@ -95,12 +98,12 @@ impl Document {
         Some(shown.numbers(self.state.file.edited.get(&id)?, mesh))
     }
 
-    /// The subdivision surface that a copy shows of a mesh; `None` where it shows the mesh itself.
+    /// What modifiers make of a mesh and a copy shows; `None` where it shows the mesh itself.
     pub(crate) fn shown_surface(&self, id: MeshId) -> Option<&Mesh> {
         self.state.shown.visible.get(&id)?.surface.as_ref()
     }
 
-    /// The mesh that is shown of an edited one, if it is all of it and nothing else: no surface, and nothing is
+    /// The mesh that is shown of an edited one, if it is all of it and nothing else: modifiers change nothing, and nothing is
     /// hidden. As of the last [`Self::scene`].
     pub(crate) fn shown_whole(&self, id: MeshId) -> Option<&Mesh> {
         let shown = &self.state.shown;

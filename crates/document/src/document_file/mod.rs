@@ -9,6 +9,8 @@ use trigon_mesh::{EditData, Mesh};
 use trigon_modelling::{EditMesh, Refusal};
 use trigon_scene::{MeshAsset, MeshId};
 
+use crate::objects::SceneObjects;
+
 /// What a file holds of a document, with its meshes as they are edited. A clone shares everything but these, and
 /// another thread can save it while editing continues.
 #[derive(Debug, Clone, Default)]
@@ -26,9 +28,9 @@ pub enum ExportError {
     /// The scene cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The subdivision surface of a mesh is too large.
+    /// What the modifiers of a mesh make is too large.
     #[error("mesh \"{name}\": {source}")]
-    Surface {
+    Modifiers {
         /// The name of the mesh.
         name: String,
         /// Why it cannot be made.
@@ -92,12 +94,12 @@ impl DocumentFile {
         (now, edited.edit_data(&map))
     }
 
-    /// The document for other programs; see [`trigon_io::export()`]. A mesh with a subdivision surface
-    /// ([`EditMesh::subdivision`]) is written as that surface, with all levels. Images are those of the
-    /// loaded file, unless the options name another.
+    /// The document for other programs; see [`trigon_io::export()`]. A mesh with modifiers
+    /// ([`EditMesh::modifiers`]) is written as all that are on make it, unless the options say otherwise. Images are those of
+    /// the loaded file, unless the options name another.
     ///
     /// # Errors
-    /// As [`trigon_io::export()`], or a subdivision surface is too large.
+    /// As [`trigon_io::export()`], or what modifiers make is too large ([`EditMesh::evaluated`]).
     pub fn export(
         &self,
         name: &str,
@@ -107,9 +109,10 @@ impl DocumentFile {
         let mut native = self.native.clone();
         for (&id, edited) in &self.edited {
             if let Some(asset) = self.native.scene.meshes().get(id) {
-                let surface = edited.to_subdivided_mesh(edited.subdivision());
-                let too_large = |source| ExportError::Surface { name: asset.name.clone(), source };
-                let mut mesh = surface.map_err(too_large)?;
+                let objects = SceneObjects::new(&self.native.scene, &self.edited, None, id);
+                let evaluated = if options.modifiers { edited.evaluated(&objects) } else { Ok(None) };
+                let refused = |source| ExportError::Modifiers { name: asset.name.clone(), source };
+                let (mut mesh, _) = evaluated.map_err(refused)?.as_ref().unwrap_or(edited).to_mesh();
                 name_targets(&mut mesh, asset);
                 native.scene.replace_mesh(id, mesh);
             }

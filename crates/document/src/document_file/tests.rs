@@ -3,7 +3,7 @@
 use trigon_io::{LoadOptions, encode_glb, load_from_slice};
 use trigon_mesh::math::Vec3;
 use trigon_mesh::{SkinWeights, primitives};
-use trigon_modelling::{EdgeId, FaceId, VertexId};
+use trigon_modelling::{EdgeId, FaceId, Modifier, NoObjects, StackedModifier, SubdivisionModifier, VertexId};
 use trigon_scene::{Material, Scene};
 
 use super::*;
@@ -53,11 +53,62 @@ fn an_edited_mesh_comes_back_with_everything_that_was_marked() {
     assert!(saved(&second.to_native()) == bytes, "and the second file is the first");
 }
 
+fn surface(levels: u32) -> StackedModifier {
+    StackedModifier::new(SubdivisionModifier { levels })
+}
+
+#[test]
+fn a_stack_with_every_modifier_comes_back_and_is_baked_on_export_if_wanted() {
+    let (mut first, id) = document(primitives::cube(2.0));
+    let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    let mut stack: Vec<StackedModifier> =
+        Modifier::of_each_kind().into_iter().map(StackedModifier::new).collect();
+    stack[0].is_on = false;
+    cube.set_modifiers(stack).expect("the defaults are in range");
+    first.edited.insert(id, cube.clone());
+    let bytes = saved(&first.to_native());
+    let (second, warnings) = opened(&bytes);
+    assert_eq!(warnings, [], "nothing to warn of");
+    assert!(*edited(&second) == cube, "with its stack");
+    assert!(saved(&second.to_native()) == bytes, "and the second file is the first");
+    let faces = |modifiers| {
+        let options = ExportOptions { modifiers, ..ExportOptions::default() };
+        let written = first.export("cube.ply", Format::Ply, &options).expect("it is small");
+        let file = written.files.last().expect("the model");
+        let exported =
+            load_from_slice("cube.ply", &file.bytes, &LoadOptions::default()).expect("it is whole");
+        exported.scene.meshes().iter().map(|(_, asset)| asset.mesh().face_count()).sum::<usize>()
+    };
+    let baked = cube.evaluated(&NoObjects).expect("it is small").expect("some are on").face_count();
+    assert_eq!((faces(false), faces(true)), (6, baked), "the cube, and what the stack makes of it");
+    assert!(baked > 24, "at least mirrored, copied and beveled: {baked}");
+}
+
+/// Before there were other modifiers, the header of a mesh had a number of levels alone.
+#[test]
+fn a_file_of_an_older_version_has_its_subdivision_surface() {
+    let (mut first, id) = document(primitives::cube(2.0));
+    let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    cube.set_modifiers(vec![surface(2)]).expect("two are few");
+    first.edited.insert(id, cube.clone());
+    let bytes = saved(&first.to_native());
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    let json = std::str::from_utf8(&bytes[20..20 + length]).expect("it is text");
+    let now = r#""modifiers":[{"modifier":{"kind":"subdivision","levels":2},"is_on":true}]"#;
+    assert!(json.contains(now), "{json}");
+    // Spaces leave the length as it is.
+    let before = format!("{:width$}", r#""subdivision":2"#, width = now.len());
+    let old = [&bytes[..20], json.replace(now, &before).as_bytes(), &bytes[20 + length..]].concat();
+    let (opened, warnings) = opened(&old);
+    assert_eq!(warnings, [], "nothing to warn of");
+    assert!(*edited(&opened) == cube, "cage and levels");
+}
+
 #[test]
 fn a_subdivision_surface_is_saved_as_its_cage_and_exported_as_a_surface() {
     let (mut first, id) = document(primitives::cube(2.0));
     let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
-    cube.set_subdivision(2).expect("two are few");
+    cube.set_modifiers(vec![surface(2)]).expect("two are few");
     first.edited.insert(id, cube.clone());
     assert!(*edited(&opened(&saved(&first.to_native())).0) == cube, "cage and levels");
     let written = first.export("cube.obj", Format::Obj, &ExportOptions::default()).expect("it is small");
@@ -73,7 +124,7 @@ fn a_surface_that_is_too_large_is_not_exported_and_names_its_mesh() {
     let torus = primitives::torus(2.0, 0.5, 200, 100);
     let (mut first, id) = document(torus.clone());
     let (mut mesh, _) = EditMesh::from_mesh(&torus);
-    let levels = |mesh: &mut EditMesh| mesh.set_subdivision(EditMesh::MOST_SUBDIVISION);
+    let levels = |mesh: &mut EditMesh| mesh.set_modifiers(vec![surface(SubdivisionModifier::MOST)]);
     mesh.transaction_within(u64::MAX, levels).map(drop).expect("levels alone are no surface yet");
     first.edited.insert(id, mesh);
     let error = first.export("torus.obj", Format::Obj, &ExportOptions::default()).expect_err("20 million");

@@ -48,13 +48,7 @@ pub fn non_manifold_edges(mesh: &EditMesh) -> Elements {
 /// angle (in radians).
 #[must_use]
 pub fn sharp_edges(mesh: &EditMesh, angle: f64) -> Elements {
-    let least = trigon_mesh::math::elementary::sin_cos(angle).1;
-    let is_sharp = |edge: EdgeId| {
-        let between = mesh.edge_pair(edge).map(|[a, b]| [mesh.corner_face(a), mesh.corner_face(b)]);
-        let differs = |[a, b]: [FaceId; 2]| face_direction(mesh, a).dot(face_direction(mesh, b)) < least;
-        mesh.is_sharp(edge) || between.is_some_and(differs)
-    };
-    Elements::Edges(mesh.edges().filter(|&edge| is_sharp(edge)).collect())
+    Elements::Edges(mesh.edges_by_angle(angle))
 }
 
 /// Faces whose direction differs from another by at most an angle (in radians).

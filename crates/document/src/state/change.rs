@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use trigon_modelling::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
+use trigon_modelling::{Difference, EdgeId, EditMesh, Evaluation, FaceId, Modifier, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
 use super::{Names, State};
 use crate::error::EditError;
+use crate::objects::{SceneObjects, UsedObject};
 use crate::selection::{Elements, MeshSelection, Selection};
 
 /// A running command: all changes go through it, so that they can be undone.
@@ -90,6 +91,25 @@ impl Change<'_> {
         }
         self.state.shown.note_edited(id);
         self.state.file.edited.get(&id)
+    }
+
+    /// An edited mesh after its modifiers, as a view shows it.
+    pub(crate) fn evaluate(&mut self, id: MeshId) -> Option<&Evaluation> {
+        let State { file, shown, .. } = &mut *self.state;
+        file.edited.contains_key(&id).then(|| shown.evaluate(id, &file.native.scene, &file.edited))
+    }
+
+    /// The edited meshes that pass a test.
+    pub(crate) fn edited_where(&self, is_one: impl Fn(&EditMesh) -> bool) -> Vec<MeshId> {
+        let all = self.state.file.edited.iter();
+        all.filter(|(_, mesh)| is_one(mesh)).map(|(id, _)| *id).collect()
+    }
+
+    /// What a modifier of a mesh uses of other objects, as it is now.
+    pub(crate) fn objects_of(&self, id: MeshId, modifier: &Modifier) -> UsedObject {
+        let file = &self.state.file;
+        let objects = SceneObjects::new(&file.native.scene, &file.edited, None, id);
+        UsedObject::of(&objects, modifier)
     }
 
     /// Changes a mesh. On an error that mesh is unchanged.

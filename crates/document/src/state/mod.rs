@@ -23,8 +23,8 @@ use crate::selection::Selection;
 pub(crate) use change::{AfterEdit, Change};
 pub(crate) use names::Names;
 pub(crate) use shown::{Outdated, Shown, Untold};
+pub(crate) use visible::MarkedElements;
 pub use visible::SceneChange;
-pub(crate) use visible::{MarkedElements, shown_levels};
 
 /// What commands change of a document, and what its scene shows of it.
 #[derive(Debug, Default)]

@@ -1,12 +1,12 @@
-//! What a view shows instead of a mesh of the document's scene: the mesh without its hidden elements, or its
-//! subdivision surface. Here is also which edges have marks, computed once after a change of marks, and the
+//! What a view shows instead of a mesh of the document's scene: the mesh without its hidden elements, or what
+//! its modifiers make of it. Here is also which edges have marks, computed once after a change of marks, and the
 //! changes that keep a copy of the scene equal to it.
 //!
 //! The document's scene always has the mesh with all elements, so that saved files are complete; a displayed copy
 //! gets another mesh.
 
 use trigon_mesh::{Mesh, MeshChange};
-use trigon_modelling::{ChangedValues, EdgeId, EditMesh, ElementMap, ElementNumbers};
+use trigon_modelling::{ChangedValues, EdgeId, EditMesh, ElementMap, ElementNumbers, Evaluation};
 use trigon_scene::{MeshId, Scene};
 
 /// What a copy of the scene shows of a mesh.
@@ -30,56 +30,51 @@ pub(crate) enum Sight {
     Whole,
     /// Without what is hidden.
     Part,
-    /// As its surface after so many levels.
-    Surface(u32),
+    /// As its modifiers make it.
+    Surface,
     /// The same with the mesh over it as its cage, without what is hidden.
-    Cage(u32),
-}
-
-/// In how many levels a view shows a mesh: as many as it has, but so that a change of it is seen soon.
-pub(crate) fn shown_levels(mesh: &EditMesh) -> u32 {
-    /// They are made anew in less than a tenth of a second.
-    const MOST_FACES: u64 = 1 << 17;
-    let is_small = |levels: &u32| mesh.subdivided_face_count(*levels) <= MOST_FACES;
-    let most = if mesh.face_count() == 0 { 0 } else { mesh.subdivision() };
-    (1..=most).rev().find(is_small).unwrap_or(0)
+    Cage,
 }
 
 impl Sight {
-    pub(crate) fn of(mesh: &EditMesh, is_edited: bool, has_hidden: bool) -> Self {
-        match (shown_levels(mesh), is_edited) {
-            (0, true) if has_hidden => Self::Part,
-            (0, _) => Self::Whole,
-            (levels, true) => Self::Cage(levels),
-            (levels, false) => Self::Surface(levels),
+    pub(crate) fn of(evaluation: &Evaluation, is_edited: bool, has_hidden: bool) -> Self {
+        match (evaluation.changes_mesh(), is_edited) {
+            (false, true) if has_hidden => Self::Part,
+            (false, _) => Self::Whole,
+            (true, true) => Self::Cage,
+            (true, false) => Self::Surface,
         }
     }
 
-    /// What a copy shows of a mesh.
-    pub(crate) fn mesh(self, edited: &EditMesh) -> (Mesh, ElementMap) {
-        let surface = match self {
-            Self::Whole => return edited.to_mesh(),
+    /// What a copy shows of a mesh, which the evaluation belongs to.
+    pub(crate) fn mesh(self, edited: &EditMesh, evaluation: &Evaluation) -> (Mesh, ElementMap) {
+        let evaluated = match self {
+            Self::Whole => None,
             Self::Part => return edited.to_visible_mesh(),
-            Self::Surface(levels) => {
-                edited.to_subdivided_mesh(levels).map(|mesh| (mesh, ElementMap::default()))
-            }
-            Self::Cage(levels) => edited.to_mesh_with_cage(levels),
+            Self::Surface => evaluation.to_mesh().map(|mesh| (mesh, ElementMap::default())),
+            Self::Cage => evaluation.to_mesh_with_cage(edited),
         };
-        surface.expect("a view shows few levels of large meshes")
+        // The sight is that of the evaluation; while a drag makes all modifiers impossible, the mesh itself is shown.
+        evaluated.unwrap_or_else(|| edited.to_mesh())
     }
 }
 
 impl VisibleMesh {
-    pub(crate) fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
-        let (mesh, map) = sight.mesh(edited);
+    pub(crate) fn new(sight: Sight, edited: &EditMesh, evaluation: &Evaluation) -> (Self, Mesh) {
+        let (mesh, map) = sight.mesh(edited, evaluation);
         let numbers = ElementNumbers::new(edited, &mesh, &map);
-        let surface = matches!(sight, Sight::Surface(_) | Sight::Cage(_)).then(|| mesh.clone());
+        let surface = matches!(sight, Sight::Surface | Sight::Cage).then(|| mesh.clone());
         let values = ChangedValues::default();
         (Self { sight, map, numbers, surface, values, is_outdated: false }, mesh)
     }
 
     /// The change of a mesh that the copy has not received.
-    pub(crate) fn take(&mut self, id: MeshId, edited: &EditMesh) -> Option<SceneChange> {
+    pub(crate) fn take(
+        &mut self,
+        id: MeshId,
+        edited: &EditMesh,
+        evaluation: &Evaluation,
+    ) -> Option<SceneChange> {
         let values = std::mem::take(&mut self.values);
         if values.is_empty() {
             return None;
@@ -87,9 +82,14 @@ impl VisibleMesh {
         let Some(surface) = &mut self.surface else {
             return Some(SceneChange::Values(id, edited.mesh_change(&values, &self.numbers)));
         };
-        let (mesh, _) = self.sight.mesh(edited);
+        let (mesh, map) = self.sight.mesh(edited, evaluation);
         let change = MeshChange::between(surface, &mesh);
         *surface = mesh;
+        if map != self.map {
+            // A vertex that moves may make modifiers join, cut or remove other elements.
+            self.numbers = ElementNumbers::new(edited, surface, &map);
+            self.map = map;
+        }
         Some(match change {
             Some(change) => SceneChange::Values(id, change),
             None => SceneChange::Visible(id, Box::new(surface.clone())),
@@ -139,7 +139,7 @@ pub enum SceneChange {
     Whole,
     /// Take over a mesh: [`Scene::adopt_mesh`].
     Mesh(MeshId),
-    /// Show another mesh than the scene's: the visible part of an edited one, or a subdivision surface.
+    /// Show another mesh than the scene's: the visible part of an edited one, or what modifiers make of it.
     /// [`Scene::replace_mesh`].
     Visible(MeshId, Box<Mesh>),
     /// Take over everything except meshes: [`Scene::swap_parts`].

@@ -1,5 +1,6 @@
 //! Random commands on documents: what is undone is undone to the same bytes.
 
+mod booleans;
 pub(crate) mod commands;
 mod overflow;
 mod parts;

@@ -62,6 +62,9 @@ pub struct ExportOptions<'a> {
     pub faces: FaceExport,
     /// How numbers are written.
     pub encoding: Encoding,
+    /// Whether a document's meshes are written as their modifiers make them, or as they are edited. Meshes of a scene alone have
+    /// no modifiers.
+    pub modifiers: bool,
 }
 
 impl Default for ExportOptions<'_> {
@@ -73,6 +76,7 @@ impl Default for ExportOptions<'_> {
             images: None,
             faces: FaceExport::Polygons,
             encoding: Encoding::Binary,
+            modifiers: true,
         }
     }
 }

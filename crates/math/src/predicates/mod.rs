@@ -5,6 +5,8 @@
 //! precision (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
 //! 1997; the `robust` crate).
 
+use std::cmp::Ordering;
+
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::FixedPoint;
@@ -67,6 +69,22 @@ pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
         Orientation::Clockwise
     } else {
         Orientation::Collinear
+    }
+}
+
+/// On which side of the plane through `a`, `b` and `c` a point is, decided without rounding: `Greater` on the side from
+/// which they run counter-clockwise, `Equal` on the plane or if they are collinear.
+///
+/// Exact if every coordinate is zero or has a magnitude between 2⁻²⁵⁰ and 2²⁵⁰. NaN and infinities give `Equal`.
+#[must_use]
+pub fn side_of_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> Ordering {
+    let coordinate = |DVec3 { x, y, z }: DVec3| robust::Coord3D { x, y, z };
+    let volume = robust::orient3d(coordinate(a), coordinate(b), coordinate(c), coordinate(point));
+    if [a, b, c, point].iter().all(|point| point.is_finite()) {
+        // Positive if the point lies below.
+        0.0_f64.partial_cmp(&volume).unwrap_or(Ordering::Equal)
+    } else {
+        Ordering::Equal
     }
 }
 

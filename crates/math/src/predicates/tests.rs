@@ -152,3 +152,22 @@ proptest! {
         prop_assert_eq!(is_mirroring(&matrix), exact < 0);
     }
 }
+
+proptest! {
+    /// The volume of a tetrahedron in wide integers; the last point is in the plane of the others, or one unit off.
+    #[test]
+    fn sides_of_triangles_are_exact(
+        points in prop::array::uniform3(prop::array::uniform3(-(1_i64 << 30)..(1_i64 << 30))),
+        nudge in prop::array::uniform3(-1..=1_i64), is_far in any::<bool>(),
+    ) {
+        let [a, b, c] = points;
+        let sum = |axis: usize| a[axis] + b[axis] - c[axis] + nudge[axis];
+        let d = if is_far { [c[1], a[2], b[0]] } else { [sum(0), sum(1), sum(2)] };
+        let from_a = |point: [i64; 3]| [0, 1, 2].map(|axis| i128::from(point[axis] - a[axis]));
+        let [[bx, by, bz], [cx, cy, cz], [dx, dy, dz]] = [b, c, d].map(from_a);
+        let volume =
+            dx * (by * cz - bz * cy) + dy * (bz * cx - bx * cz) + dz * (bx * cy - by * cx);
+        let vector = |point: [i64; 3]| DVec3::from_array(point.map(|value| value as f64));
+        prop_assert_eq!(side_of_triangle([a, b, c].map(vector), vector(d)), volume.cmp(&0));
+    }
+}

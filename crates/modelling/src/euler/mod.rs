@@ -16,5 +16,5 @@ mod split;
 mod turn;
 
 pub(super) use parts::{Divided, PartPoint, Parts};
-pub(super) use simple::is_simple;
+pub(super) use simple::{is_simple, simple_parts};
 pub use split::{SplitEdge, SplitFace};

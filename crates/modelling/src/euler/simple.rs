@@ -34,7 +34,7 @@ pub(crate) fn is_simple(vertices: &[VertexId]) -> bool {
 }
 
 /// The simple outlines of which any closed walk consists, as indices into it: none if it encloses nothing.
-fn simple_parts(vertices: &[VertexId], position: impl Fn(VertexId) -> Vec3) -> Parts {
+pub(crate) fn simple_parts(vertices: &[VertexId], position: impl Fn(VertexId) -> Vec3) -> Parts {
     without_doubles(&parts_of(vertices, position), vertices)
 }
 

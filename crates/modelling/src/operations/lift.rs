@@ -120,7 +120,7 @@ impl EditMesh {
     }
 
     /// The wall along an edge of the border, wound like the face of the region there.
-    fn add_wall(
+    pub(super) fn add_wall(
         &mut self,
         border: &BorderEdge,
         base_edge: EdgeId,
@@ -152,7 +152,7 @@ impl EditMesh {
     }
 
     /// The faces of sheets once more, flipped, on the base's vertices.
-    fn add_bottoms(
+    pub(super) fn add_bottoms(
         &mut self,
         sheets: &[FaceId],
         border: &[BorderEdge],

@@ -31,7 +31,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 20] = [
+const OPERATIONS: [(&str, Operation); 27] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -57,8 +57,21 @@ const OPERATIONS: [(&str, Operation); 20] = [
         let inset = Inset { thickness: 0.01, open_borders: true, ..Inset::default() };
         mesh.inset_region(&faces(mesh), inset).map(drop)
     }),
+    ("decimate", |mesh| mesh.decimate(&faces(mesh), &DecimateSettings::default()).map(drop)),
+    ("solidify", |mesh| mesh.solidify_faces(&faces(mesh), &SolidifySettings::default()).map(drop)),
+    ("spin", |mesh| {
+        let settings = SpinSettings { center: [3.0, 0.0, 0.0], ..SpinSettings::default() };
+        mesh.spin(&rims(mesh), &[], &settings).map(drop)
+    }),
     ("duplicate", |mesh| mesh.duplicate(&[], &[], &faces(mesh)).map(drop)),
     ("mirror a copy", |mesh| mesh.mirror_copy(&faces(mesh), &[], &plane(), None).map(drop)),
+    ("bisect", |mesh| {
+        let settings = BisectSettings { fill: true, ..BisectSettings::default() };
+        mesh.bisect(&faces(mesh), DVec3::ZERO, DVec3::new(1.0, 0.1, 0.2), &settings).map(drop)
+    }),
+    ("wireframe", |mesh| mesh.wireframe_faces(&faces(mesh), &WireframeSettings::default()).map(drop)),
+    ("poke", |mesh| mesh.poke_faces(&faces(mesh), 0.1).map(drop)),
+    ("convex hull", |mesh| mesh.convex_hull(&vertices(mesh), &HullSettings::default()).map(drop)),
     ("symmetrize", |mesh| mesh.symmetrize(&faces(mesh), &plane(), 0.0).map(drop)),
     ("fill", |mesh| mesh.fill_edges(&rims(mesh)).map(drop)),
     ("bridge", |mesh| mesh.bridge_edges(&rims(mesh)).map(drop)),

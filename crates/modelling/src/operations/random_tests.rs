@@ -21,7 +21,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 26 {
+    match kind % 33 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -65,6 +65,32 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             &CylinderProjection { axis: center, ..Default::default() },
         ),
         24 => mesh.project_uvs_on_sphere(&faces, 1, &SphereProjection { axis: center, ..Default::default() }),
+        25 => {
+            let settings = SolidifySettings {
+                thickness: b.abs(),
+                offset: a,
+                even: bits.is_multiple_of(2),
+                ..Default::default()
+            };
+            mesh.solidify_faces(&faces, &settings).map(drop)
+        }
+        26 => mesh.decimate(&faces, &DecimateSettings { ratio: a.abs(), ..Default::default() }).map(drop),
+        27 => {
+            let height = if bits.is_multiple_of(3) { b } else { 0.0 };
+            let settings = SpinSettings { angle: 6.0 * a, steps: 3, height, ..Default::default() };
+            mesh.spin(&edges, &vertices, &settings).map(drop)
+        }
+        28 => {
+            let [clear_outer, clear_inner, fill] = [1, 4, 2].map(|bit| bits & bit != 0 && b > 0.0);
+            let settings = BisectSettings { clear_outer, clear_inner, fill, threshold: 0.0 };
+            mesh.bisect(&faces, center * 0.2, plane.normal(), &settings).map(drop)
+        }
+        29 => mesh.poke_faces(&faces, a).map(drop),
+        30 => mesh.convex_hull(&vertices, &HullSettings { replace: a > 0.0 }).map(drop),
+        31 => {
+            let settings = WireframeSettings { thickness: b.abs(), replace: a > 0.0 };
+            mesh.wireframe_faces(&faces, &settings).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -100,7 +126,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 26)) {
+            if (5..15).contains(&(kind % 33)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

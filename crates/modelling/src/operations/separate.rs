@@ -7,7 +7,7 @@ use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
 
 impl EditMesh {
-    /// Moves faces into a separate mesh with the same layers and subdivision level. Edges and vertices that other
+    /// Moves faces into a separate mesh with the same layers and modifiers. Edges and vertices that other
     /// faces or edges need are copied; the others move with the faces.
     ///
     /// # Errors
@@ -15,13 +15,13 @@ impl EditMesh {
     pub fn separate(&mut self, faces: &[FaceId]) -> Result<Self, Refusal> {
         let region = Region::new(self, faces, "separating")?;
         let mut part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
-        part.subdivision = self.subdivision;
+        part.modifiers.clone_from(&self.modifiers);
         self.delete_faces(&region.faces)?;
         Ok(part)
     }
 
     /// A mesh of copies of these faces with their edges and vertices, edges with their ends, and vertices, with
-    /// the same layers and subdivision level. Elements given several times are copied once.
+    /// the same layers and modifiers. Elements given several times are copied once.
     ///
     /// # Errors
     /// One does not exist.
@@ -35,7 +35,7 @@ impl EditMesh {
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         faces.iter().try_for_each(|&face| self.check_face(face))?;
         let mut part = self.part(&Elements::with_parts(self, vertices, edges, faces));
-        part.subdivision = self.subdivision;
+        part.modifiers.clone_from(&self.modifiers);
         Ok(part)
     }
 }

@@ -62,7 +62,11 @@ const BY_OTHER_MEANS: [&str; 15] = [
 ];
 
 /// Those of the panels.
-const BY_PANELS: [&str; 7] = [
+const BY_PANELS: [&str; 11] = [
+    "set_modifier",
+    "show_modifier",
+    "move_modifier",
+    "remove_modifier",
     "reorder_object",
     "set_transform",
     "set_light",

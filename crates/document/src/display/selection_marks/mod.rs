@@ -174,8 +174,11 @@ impl Sets {
         if let Some(surface) = document.shown_surface(id) {
             let is_surface =
                 |vertex: &&VertexId| document.mesh(id).is_some_and(|mesh| !mesh.has_vertex(**vertex));
+            let is_surface_edge =
+                |edge: &&EdgeId| document.mesh(id).is_some_and(|mesh| !mesh.has_edge(**edge));
+            let loose = map.loose_edges.iter().take_while(is_surface_edge).count();
             let mut cage = all(surface.edge_count());
-            cage.set_range(..surface.face_edge_count(), false);
+            cage.set_range(..surface.face_edge_count() + loose, false);
             self.cage.add(node, cage);
             self.plain_edges.add(node, all(surface.face_edge_count()));
             self.plain_vertices.add(node, all(map.vertices.iter().take_while(is_surface).count()));

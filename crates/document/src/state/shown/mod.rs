@@ -8,12 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 use trigon_mesh::{ChangedElements, Mesh};
-use trigon_modelling::{ChangedValues, Difference, EditMesh, ElementMap, ElementNumbers};
+use trigon_modelling::{ChangedValues, Difference, EditMesh, ElementMap, ElementNumbers, Evaluation};
 use trigon_scene::{MeshId, Scene};
 
 use super::MarkedElements;
 use super::visible::SceneChange;
 use super::visible::{Sight, VisibleMesh};
+use crate::objects::SceneObjects;
 use crate::revision::next_revision;
 use crate::selection::Selection;
 
@@ -55,6 +56,10 @@ pub(crate) struct Shown {
     pub(crate) untold: Option<Untold>,
     /// What a copy shows instead of the scene's mesh.
     pub(crate) visible: BTreeMap<MeshId, VisibleMesh>,
+    /// Meshes after their modifiers.
+    evaluations: BTreeMap<MeshId, Evaluation>,
+    /// Another number after each change of a mesh or its modifiers, for those of other objects that use it.
+    revisions: BTreeMap<MeshId, u64>,
     /// Another one after each change that affects marks, other than of the selection.
     pub(crate) marks_revision: u64,
 }
@@ -69,8 +74,12 @@ impl Shown {
             }
             self.note_visible(id);
         }
-        if difference.changes_subdivision() {
+        if difference.changes_modifiers() {
             self.note_visible(id);
+            self.revisions.insert(id, next_revision());
+        }
+        if difference.changes_elements() {
+            self.forget_evaluation(id);
         }
         let values = mesh.changed_values(difference).filter(|_| self.meshes.contains_key(&id));
         match (values, self.outdated.get_mut(&id)) {
@@ -89,8 +98,37 @@ impl Shown {
         }
     }
 
+    /// What modifiers made of a mesh is outdated.
+    fn forget_evaluation(&mut self, id: MeshId) {
+        self.revisions.insert(id, next_revision());
+        if let Some(evaluation) = self.evaluations.get_mut(&id) {
+            evaluation.forget();
+        }
+    }
+
+    /// A mesh after its modifiers, up to date.
+    pub(crate) fn evaluate(
+        &mut self,
+        id: MeshId,
+        scene: &Scene,
+        edited: &BTreeMap<MeshId, EditMesh>,
+    ) -> &Evaluation {
+        let objects = SceneObjects::new(scene, edited, Some(&self.revisions), id);
+        let evaluation = self.evaluations.entry(id).or_default();
+        if let Some(mesh) = edited.get(&id)
+            && evaluation.update(mesh, &objects)
+            && let Some(visible) = self.visible.get_mut(&id)
+            && visible.values.is_empty()
+        {
+            // Not its own elements changed, but its modifiers, or other objects that these use.
+            visible.is_outdated = true;
+        }
+        evaluation
+    }
+
     /// The scene's mesh must be rebuilt.
     pub(crate) fn note_mesh(&mut self, id: MeshId) {
+        self.forget_evaluation(id);
         self.outdated.insert(id, Outdated::Whole);
     }
 
@@ -126,7 +164,7 @@ impl Shown {
                 self.make_anew(scene, id, edited);
             }
         }
-        self.refresh(meshes, selection);
+        self.refresh(scene, meshes, selection);
     }
 
     fn make_anew(&mut self, scene: &mut Scene, id: MeshId, edited: &EditMesh) {
@@ -143,18 +181,19 @@ impl Shown {
     }
 
     /// Brings what a copy shows up to date, if there is a copy.
-    fn refresh(&mut self, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
+    fn refresh(&mut self, scene: &Scene, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
         let Some(mut untold) = self.untold.take() else { return };
         let candidates: BTreeSet<MeshId> = edited
             .iter()
-            .filter(|(id, mesh)| mesh.subdivision() > 0 || selection.of(**id).is_some())
+            .filter(|(id, mesh)| !mesh.modifiers().is_empty() || selection.of(**id).is_some())
             .map(|(id, _)| *id)
             .chain(self.visible.keys().copied())
             .collect();
         for id in candidates {
             let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
                 let is_edited = selection.of(id).is_some();
-                Sight::of(mesh, is_edited, is_edited && self.marked(id, mesh).has_hidden)
+                let has_hidden = is_edited && self.marked(id, mesh).has_hidden;
+                Sight::of(self.evaluate(id, scene, edited), is_edited, has_hidden)
             });
             let known = self.visible.get(&id);
             let is_current = match known {
@@ -170,12 +209,32 @@ impl Shown {
                 untold.visible.remove(&id);
                 untold.meshes.insert(id);
             } else {
-                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id]);
+                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id], self.evaluate(id, scene, edited));
                 self.visible.insert(id, visible);
                 untold.visible.insert(id, mesh);
             }
         }
         self.untold = Some(untold);
+    }
+
+    /// The changes of meshes that the copy shows in another way than the scene, since the last call.
+    pub(crate) fn take_visible(
+        &mut self,
+        scene: &Scene,
+        edited: &BTreeMap<MeshId, EditMesh>,
+    ) -> Vec<SceneChange> {
+        let mut changes = Vec::new();
+        for (&id, visible) in &mut self.visible {
+            let Some(mesh) = edited.get(&id) else { continue };
+            let evaluation = self.evaluations.entry(id).or_default();
+            evaluation.update(mesh, &SceneObjects::new(scene, edited, Some(&self.revisions), id));
+            let change = visible.take(id, mesh, evaluation);
+            if matches!(change, Some(SceneChange::Visible(..))) {
+                self.marks_revision = next_revision();
+            }
+            changes.extend(change);
+        }
+        changes
     }
 
     pub(crate) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {

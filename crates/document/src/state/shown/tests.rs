@@ -57,12 +57,39 @@ fn step() -> impl Strategy<Value = Value> {
         3 => plain.prop_map(|op| json!({ "op": op })),
         1 => kind.prop_map(|kind| json!({ "op": "set_element_kind", "kind": kind })),
         1 => (0u32..3).prop_map(|levels| json!({ "op": "set_subdivision", "levels": levels })),
+        2 => modifier_step(),
         1 => Just(json!({ "op": "leave_edit_mode" })),
         1 => Just(json!({ "op": "edit_objects", "objects": [0, 1] })),
         1 => Just(json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } })),
         4 => (0u32..2, prop::collection::vec(0u32..20, 1..6)).prop_map(|(object, elements)| {
             json!({ "op": "select", "objects": [object], "elements": elements })
         }),
+    ]
+}
+
+/// Commands that change stacks of modifiers.
+fn modifier_step() -> impl Strategy<Value = Value> {
+    let modifier = prop_oneof![
+        Just(json!({ "kind": "mirror", "merge_distance": 0.5 })),
+        Just(json!({ "kind": "weld", "distance": 0.6 })),
+        Just(json!({ "kind": "bevel" })),
+        Just(json!({ "kind": "array" })),
+        Just(json!({ "kind": "triangulate" })),
+    ];
+    prop_oneof![
+        4 => (0u32..2, modifier).prop_map(|(object, modifier)| {
+            json!({ "op": "add_modifier", "object": object, "modifier": modifier })
+        }),
+        1 => (0u32..2, any::<bool>()).prop_map(|(object, on)| {
+            json!({ "op": "show_modifier", "object": object, "index": 0, "on": on })
+        }),
+        1 => (0u32..2, 0u32..3).prop_map(|(object, to)| {
+            json!({ "op": "move_modifier", "object": object, "index": 0, "to": to })
+        }),
+        2 => (0u32..2, 0u32..2).prop_map(|(object, index)| {
+            json!({ "op": "remove_modifier", "object": object, "index": index })
+        }),
+        1 => (0u32..2).prop_map(|object| json!({ "op": "apply_modifier", "object": object })),
     ]
 }
 
@@ -78,8 +105,10 @@ fn check(document: &mut Document, copy: &Scene) -> Result<(), TestCaseError> {
         prop_assert!(*asset.mesh() == edited.to_mesh().0, "the scene has all that is hidden");
         let is_edited = document.selection().of(id).is_some();
         let has_hidden = is_edited && document.marked(id).is_some_and(|marked| marked.has_hidden);
-        let sight = Sight::of(edited, is_edited, has_hidden);
-        let (anew, map) = sight.mesh(edited);
+        let mut evaluation = Evaluation::default();
+        evaluation.update(edited, &SceneObjects::new(document.nodes(), &BTreeMap::new(), None, id));
+        let sight = Sight::of(&evaluation, is_edited, has_hidden);
+        let (anew, map) = sight.mesh(edited, &evaluation);
         prop_assert_eq!(shown.positions(), anew.positions());
         prop_assert_eq!(shown.attributes(), anew.attributes());
         prop_assert_eq!(shown.shading_normals(), anew.shading_normals());

@@ -12,7 +12,7 @@ use trigon_io::{
 };
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, EditData, Mesh, MorphTarget, RenderMesh, SkinWeights, primitives};
-use trigon_modelling::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_modelling::{EdgeId, EditMesh, FaceId, StackedModifier, SubdivisionModifier, VertexId};
 use trigon_scene::{
     Animation, Channel, Curve, Interpolation, Light, LightKind, Material, MeshId, Node, NodeId, Property,
     RenderSettings, Scene, Shading, Skin, Texture, TextureFormat, Transform, render, showcase,
@@ -186,7 +186,8 @@ fn a_subdivision_surface_is_saved_as_its_cage() {
     let mut first = NativeDocument::new(scene);
     let (id, mesh) = only_mesh(&first.scene);
     let (mut cube, _) = EditMesh::from_mesh(mesh);
-    cube.set_subdivision(2).expect("two are few");
+    let surface = StackedModifier::new(SubdivisionModifier { levels: 2 });
+    cube.set_modifiers(vec![surface]).expect("two are few");
     put(&mut first, id, &cube);
     let (again, warnings) = document("cube.glb", &saved(&first));
     assert_eq!(warnings, []);

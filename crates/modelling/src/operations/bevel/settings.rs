@@ -54,12 +54,10 @@ impl Default for BevelSettings {
 /// What the width of a bevel measures. A rim is a new edge beside an old face. If a distance of rims or a height is
 /// measured, no rim is farther from the old edge than 20 times the width, which almost flat and almost folded edges
 /// would exceed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
 )]
+#[serde(rename_all = "snake_case")]
 pub enum BevelWidth {
     /// For edges, the distance of each new rim from the old edge, in the face's plane; for vertices the
     /// distance of each new vertex from the old one, along its edge.
@@ -78,12 +76,10 @@ pub enum BevelWidth {
 }
 
 /// The shape of a rim at a reflex angle between two beveled edges of one face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
 )]
+#[serde(rename_all = "snake_case")]
 pub enum OuterMiter {
     /// Both rims go on until they meet.
     #[default]
@@ -95,12 +91,10 @@ pub enum OuterMiter {
 }
 
 /// The shape of a rim at another angle between two beveled edges of one face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema),
-    serde(rename_all = "snake_case")
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
 )]
+#[serde(rename_all = "snake_case")]
 pub enum InnerMiter {
     /// Both rims go on until they meet.
     #[default]

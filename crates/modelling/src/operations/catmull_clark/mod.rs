@@ -76,16 +76,6 @@ impl EditMesh {
         self.check_capacity_for(NewElements { vertices, edges, corners, faces })
     }
 
-    /// Of each face that there will be after the next level, what the old face of which it is a part stood for.
-    pub(crate) fn note_parts(&self, wholes: &mut Vec<u32>) {
-        for corner in self.corners() {
-            let face = self.corners[corner.0].face;
-            if self.faces[face].corner != corner.0 {
-                wholes.push(wholes[face as usize]);
-            }
-        }
-    }
-
     fn subdivide_once(&mut self) {
         let numbers = Numbers::of(self);
         let vertices = fill(numbers.vertex_total(), |index| self.refined_vertex(&numbers, index));

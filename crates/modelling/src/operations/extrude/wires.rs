@@ -102,7 +102,7 @@ impl EditMesh {
 
     /// For each of some edges, in ascending order, the end at which its wall starts, so that walls
     /// continue the faces and each other.
-    fn wall_starts(&self, edges: &[EdgeId]) -> Vec<VertexId> {
+    pub(in crate::operations) fn wall_starts(&self, edges: &[EdgeId]) -> Vec<VertexId> {
         // Which edges meet where: pairs of a vertex and the place of an edge in the list.
         let mut ends: Vec<(VertexId, usize)> = Vec::with_capacity(2 * edges.len());
         for (index, &edge) in edges.iter().enumerate() {

@@ -4,7 +4,7 @@
 mod inputs;
 mod oracles;
 
-use trigon_math::{DVec3, Plane, Vec3, area_vector};
+use trigon_math::{DAffine3, DVec3, Plane, Vec3, area_vector};
 use trigon_mesh::triangulate_polygon;
 
 use super::*;
@@ -78,7 +78,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 37] = [
+const OPERATIONS: [Operation; 48] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -130,6 +130,31 @@ const OPERATIONS: [Operation; 37] = [
     operation("outset a region", Promise::Nothing, |mesh, on| {
         mesh.outset_region(&on.faces, Inset { thickness: 0.1, ..Inset::default() }).map(drop)
     }),
+    operation("bisect", Promise::Shape, |mesh, on| {
+        mesh.bisect(&on.faces, DVec3::splat(0.1), DVec3::new(1.0, 0.3, -0.2), &BisectSettings::default())
+            .map(drop)
+    }),
+    operation("bisect, clear and fill", Promise::Nothing, |mesh, on| {
+        let settings = BisectSettings { clear_outer: true, fill: true, ..Default::default() };
+        mesh.bisect(&on.faces, DVec3::ZERO, DVec3::X, &settings).map(drop)
+    }),
+    operation("wireframe", Promise::Nothing, |mesh, on| {
+        mesh.wireframe_faces(&on.faces, &WireframeSettings::default()).map(drop)
+    }),
+    operation("poke", Promise::Euler, |mesh, on| mesh.poke_faces(&on.faces, 0.0).map(drop)),
+    operation("convex hull", Promise::Nothing, |mesh, on| {
+        mesh.convex_hull(&on.vertices, &HullSettings { replace: on.number % 2 == 0 }).map(drop)
+    }),
+    operation("spin", Promise::Nothing, |mesh, on| {
+        let settings = SpinSettings { axis: [1.0, 0.0, 1.0], steps: 3, ..Default::default() };
+        mesh.spin(&on.edges, &on.vertices, &settings).map(drop)
+    }),
+    operation("decimate", Promise::Closed, |mesh, on| {
+        mesh.decimate(&on.faces, &DecimateSettings::default()).map(drop)
+    }),
+    operation("solidify", Promise::Nothing, |mesh, on| {
+        mesh.solidify_faces(&on.faces, &SolidifySettings { thickness: 0.1, ..Default::default() }).map(drop)
+    }),
     operation("bevel edges", Promise::Closed, |mesh, on| {
         let settings = BevelSettings { segments: 1 + on.number as usize % 3, ..BevelSettings::default() };
         mesh.bevel_edges(&on.edges, &settings).map(drop)
@@ -180,7 +205,26 @@ const OPERATIONS: [Operation; 37] = [
         mesh.collapse_zero_length_edges(0.7).map(drop)
     }),
     operation("split off", Promise::Nothing, |mesh, on| mesh.split_off(&on.faces).map(drop)),
+    operation("unite with a moved copy", Promise::Closed, |mesh, on| {
+        boolean_with_a_copy(mesh, on, BooleanOperation::Union)
+    }),
+    operation("cut out a moved copy", Promise::Closed, |mesh, on| {
+        boolean_with_a_copy(mesh, on, BooleanOperation::Difference)
+    }),
+    operation("intersect with a moved copy", Promise::Closed, |mesh, on| {
+        boolean_with_a_copy(mesh, on, BooleanOperation::Intersection)
+    }),
 ];
+
+/// Every third time it is moved along the axes by halves of a metre, and turned otherwise.
+fn boolean_with_a_copy(mesh: &mut EditMesh, on: &Chosen, operation: BooleanOperation) -> Result<(), Refusal> {
+    let number = on.number as f64;
+    let offset = DVec3::new((number / 3.0).floor() / 2.0 - 2.0, 0.5, 0.0);
+    let angle = if on.number % 3 == 0 { 0.0 } else { number };
+    let transform = DAffine3::from_translation(offset) * DAffine3::from_rotation_z(angle);
+    let copy = mesh.clone();
+    mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
+}
 
 /// Runs one operation on one input with one choice.
 fn check(input: &Input, operation: &Operation, number: u64) -> Result<(), String> {

@@ -5,6 +5,7 @@
 //! computed from these in f64 and rounded once, so a drag of a thousand steps ends where one step would.
 
 mod along_edges;
+mod clip;
 mod falloff;
 mod given_normals;
 mod kind;

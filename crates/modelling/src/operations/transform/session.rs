@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use trigon_math::{DVec3, Vec3};
 
 use super::super::delete::require;
+use super::clip::Clip;
 use super::falloff::{Falloff, Weighted};
 use super::given_normals::GivenNormals;
 use super::kind::{Prepared, Transform};
@@ -20,7 +21,8 @@ use crate::transaction::Difference;
 /// can be undone. Between these the mesh must not be changed otherwise: its elements stay.
 ///
 /// Normals that were given for corners turn with faces that move wholly by a linear map; at other
-/// faces that move they are cleared, and computed ones show.
+/// faces that move they are cleared, and computed ones show. A mirror modifier with clipping holds vertices on its planes, and
+/// others on their side.
 ///
 /// ```
 /// use trigon_mesh::math::{DVec3, Vec3};
@@ -50,6 +52,7 @@ pub struct MoveSession {
     /// At the start; empty until they are needed.
     normals: Vec<DVec3>,
     given: GivenNormals,
+    clip: Clip,
     /// Where vertices go: kept for its memory.
     positions: Vec<Vec3>,
     last: Option<Transform>,
@@ -96,7 +99,8 @@ impl MoveSession {
     fn begin(mesh: &EditMesh, vertices: Vec<VertexId>, weights: Weights) -> Self {
         let starts: Vec<Vec3> = vertices.iter().map(|&vertex| mesh.position(vertex)).collect();
         let given = GivenNormals::at(mesh, &vertices, |index| weights.of(index) == 1.0);
-        Self { positions: starts.clone(), vertices, starts, weights, normals: Vec::new(), given, last: None }
+        let (positions, normals, clip) = (starts.clone(), Vec::new(), Clip::of(mesh));
+        Self { vertices, starts, weights, normals, given, clip, positions, last: None }
     }
 
     /// The vertices that move, wholly or in part, in ascending order.
@@ -128,6 +132,10 @@ impl MoveSession {
             self.normals = mesh.vertex_normals(&self.vertices);
         }
         self.move_positions(&prepared);
+        // A map of the mesh into another space is no movement within it.
+        if self.clip.is_needed() && !matches!(transform, Transform::Affine { .. }) {
+            self.clip_positions();
+        }
         self.last = Some(*transform);
         if self.positions == self.starts {
             self.restore(mesh);
@@ -158,6 +166,12 @@ impl MoveSession {
                 *position = prepared.moved(starts[index].as_dvec3(), weights.of(index), normal).as_vec3();
             }
         });
+    }
+
+    fn clip_positions(&mut self) {
+        for (position, &start) in self.positions.iter_mut().zip(&self.starts) {
+            *position = self.clip.clipped(start, *position);
+        }
     }
 
     /// The mean distance of the vertices from a point at the start, by weight.

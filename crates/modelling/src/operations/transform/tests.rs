@@ -9,7 +9,7 @@ use trigon_mesh::{Mesh, primitives};
 use super::kind::Prepared;
 use super::*;
 use crate::tests::meshes;
-use crate::{EditMesh, Refusal, VertexId};
+use crate::{EditMesh, MirrorModifier, Refusal, StackedModifier, VertexId};
 
 fn editable(mesh: &Mesh) -> EditMesh {
     EditMesh::from_mesh(mesh).0
@@ -27,6 +27,26 @@ fn moved_cube(transform: Transform) -> Vec3 {
     cube.transform_vertices(&vertices, &transform, None).expect("it is possible");
     cube.check_structure().expect("whole");
     cube.position(corner.expect("a cube has this corner"))
+}
+
+#[test]
+fn a_mirror_modifier_with_clipping_holds_vertices_on_its_plane() {
+    let (mut grid, _) = EditMesh::from_mesh(&primitives::grid(2.0, 2.0, 2, 2));
+    let mirror = MirrorModifier { clip: true, ..MirrorModifier::default() };
+    grid.set_modifiers(vec![StackedModifier::new(mirror)]).expect("in range");
+    let xs = |mesh: &EditMesh| {
+        let mut xs: Vec<f32> = mesh.vertices().map(|vertex| mesh.position(vertex).x).collect();
+        xs.sort_by(f32::total_cmp);
+        xs
+    };
+    let vertices: Vec<VertexId> = grid.vertices().collect();
+    let offset = DVec3::new(-0.25, 0.5, 0.0);
+    let step = Transform::Translate { offset };
+    grid.transform_vertices(&vertices, &step, None).expect("finite");
+    assert_eq!(xs(&grid), [-1.25, -1.25, -1.25, 0.0, 0.0, 0.0, 0.75, 0.75, 0.75], "the middle stays");
+    grid.transform_vertices(&vertices, &Transform::Translate { offset: DVec3::X * -2.0 }, None)
+        .expect("finite");
+    assert_eq!(xs(&grid), [-3.25, -3.25, -3.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "nothing crosses it");
 }
 
 #[test]

@@ -31,9 +31,10 @@ pub use self::islands::PackSettings;
 pub use self::smart::SmartProjection;
 
 /// How charts are laid flat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum UnwrapMethod {
     /// Angles are preserved as well as possible, with a free border. Charts that would overlap are laid out as with
     /// `convex`, and then stretched as little as possible.

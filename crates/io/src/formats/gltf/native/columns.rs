@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 
+use serde_json::value::RawValue;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, EdgeMark, EditData, Mesh, MeshColumns, MorphTarget, SkinWeights};
 
@@ -123,7 +124,7 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
         joints_per_vertex: attributes.skin.as_ref().map(SkinWeights::per_vertex),
         targets: attributes.morph_targets.len(),
         edited: edit_data.is_some(),
-        subdivision: edit_data.map_or(0, |data| data.subdivision),
+        modifiers: edit_data.and_then(|data| RawValue::from_string(data.modifiers.clone()).ok()),
         empty: if mesh.face_count() == 0 { optional_columns(attributes) } else { BTreeSet::new() },
         ..NativeHeader::default()
     };
@@ -245,7 +246,7 @@ pub(in crate::formats::gltf) fn mesh_from_columns(
         loose_points: reader.words("loosePoints")?,
     };
     let attributes = read_attributes(reader, header)?;
-    let edit_data = header.edited.then(|| read_edit_data(reader, header.subdivision)).transpose()?;
+    let edit_data = header.edited.then(|| read_edit_data(reader, modifiers_of(header))).transpose()?;
     let mut mesh = Mesh::from_columns(columns).map_err(|error| error.to_string())?;
     mesh.set_attributes(attributes).map_err(|error| error.to_string())?;
     Ok((mesh, edit_data))
@@ -309,7 +310,18 @@ fn read_target(reader: &mut ColumnReader<'_>, number: usize) -> Result<MorphTarg
     Ok(MorphTarget { name: String::new(), positions, normals, tangents })
 }
 
-fn read_edit_data(reader: &mut ColumnReader<'_>, subdivision: u32) -> Result<EditData, String> {
+/// The stack of modifiers as text; empty without any.
+fn modifiers_of(header: &NativeHeader) -> String {
+    match (&header.modifiers, header.subdivision) {
+        (Some(modifiers), _) => modifiers.get().to_owned(),
+        (None, 0) => String::new(),
+        (None, levels) => {
+            format!(r#"[{{"modifier":{{"kind":"subdivision","levels":{levels}}},"is_on":true}}]"#)
+        }
+    }
+}
+
+fn read_edit_data(reader: &mut ColumnReader<'_>, modifiers: String) -> Result<EditData, String> {
     let first_positions = vec3("firstPositions", reader.column("firstPositions"))?;
     let edges = reader.words("edgeMarks")?;
     let (edges, []) = edges.as_chunks::<4>() else { return Err(uneven("edgeMarks")) };
@@ -326,6 +338,6 @@ fn read_edit_data(reader: &mut ColumnReader<'_>, subdivision: u32) -> Result<Edi
         hidden_vertices: reader.words("hiddenVertices")?,
         hidden_faces: reader.words("hiddenFaces")?,
         sharp_corners: reader.words("sharpCorners")?,
-        subdivision,
+        modifiers,
     })
 }

@@ -241,13 +241,12 @@ pub(super) struct NativeHeader {
     /// Whether the mesh was being edited, and so has edit data.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(super) edited: bool,
-    /// In how many Catmull-Clark levels the mesh is shown.
-    #[serde(default, skip_serializing_if = "is_plain")]
+    /// The stack of modifiers of an edited mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) modifiers: Option<Box<RawValue>>,
+    /// Of a file of an older version, which knew one modifier: in how many Catmull-Clark levels the mesh is shown.
+    #[serde(default, skip_serializing)]
     pub(super) subdivision: u32,
-}
-
-fn is_plain(levels: &u32) -> bool {
-    *levels == 0
 }
 
 fn is_zero(number: &usize) -> bool {

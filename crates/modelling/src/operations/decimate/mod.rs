@@ -1,0 +1,132 @@
+//! Reducing the number of triangles, with as little change of the surface as possible.
+//!
+//! Edges collapse in the order of the error that this causes (`candidates`, from `quadric` and `wedges`). `surface` is a
+//! copy of what is needed for that, as lists; `collapse` works on it, and `rebuild` changes the mesh once at the end.
+
+mod candidates;
+mod collapse;
+mod quadric;
+mod rebuild;
+mod surface;
+#[cfg(test)]
+mod tests;
+mod wedges;
+
+use self::collapse::{Goal, reduce};
+use self::surface::Surface;
+use super::region::Region;
+use crate::edit_mesh::EditMesh;
+use crate::ids::FaceId;
+use crate::refusal::Refusal;
+
+/// When a reduction ends.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum DecimateGoal {
+    /// At a part of the triangles.
+    #[default]
+    Ratio,
+    /// At a number of triangles.
+    Faces,
+    /// At an error.
+    Error,
+}
+
+/// Parameters of [`EditMesh::decimate`].
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DecimateSettings {
+    /// When to end; the other goals' values are not used.
+    pub goal: DecimateGoal,
+    /// For a ratio: how many triangles to leave, in parts of all; 0 to 1.
+    pub ratio: f64,
+    /// For a number: how many triangles to leave.
+    pub faces: u32,
+    /// For an error: the largest distance of a new vertex from the planes of the triangles that it stands for, in metres: the
+    /// root of the mean square, by area.
+    pub error: f64,
+}
+
+impl Default for DecimateSettings {
+    /// Half of the triangles.
+    fn default() -> Self {
+        Self { goal: DecimateGoal::default(), ratio: 0.5, faces: 1000, error: 0.001 }
+    }
+}
+
+/// What was left.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Decimated {
+    /// The triangles that are left of the given faces.
+    pub faces: Vec<FaceId>,
+    /// How many triangles were removed.
+    pub removed: usize,
+    /// The largest error of a collapse, in metres, as for [`DecimateSettings::error`].
+    pub error: f64,
+}
+
+impl DecimateSettings {
+    fn check(&self) -> Result<(), Refusal> {
+        let refused = |parameter, value, range| Err(Refusal::OutOfRange { parameter, value, range });
+        if !(0.0..=1.0).contains(&self.ratio) {
+            return refused("the ratio of triangles", self.ratio, "0 to 1");
+        }
+        if !(self.error >= 0.0 && self.error.is_finite()) {
+            return refused("the error", self.error, "at least 0");
+        }
+        Ok(())
+    }
+
+    fn goal(&self, triangles: usize) -> Goal {
+        let (triangles, error) = match self.goal {
+            DecimateGoal::Ratio => ((triangles as f64 * self.ratio) as usize, f64::INFINITY),
+            DecimateGoal::Faces => (self.faces as usize, f64::INFINITY),
+            DecimateGoal::Error => (0, self.error * self.error),
+        };
+        Goal { triangles, error }
+    }
+}
+
+impl EditMesh {
+    /// Reduces the number of triangles of faces by collapsing edges, those first that change the surface least: the error is
+    /// the sum of squared distances from the planes of all triangles that a vertex stands for (M. Garland and P. Heckbert,
+    /// "Surface Simplification Using Quadric Error Metrics", 1997), with texture coordinates and colours as in H. Hoppe,
+    /// "New Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999. Other faces are cut into triangles
+    /// first, and numbers are those of triangles.
+    ///
+    /// Features are borders, edges that are sharp, creased or seams, and those where material, shading, texture coordinates
+    /// or colours end. They only collapse along themselves, and vertices where they end or branch stay, as do those of other
+    /// faces and of loose edges. No triangle turns by more than about 78° in a step, a closed surface stays closed, and
+    /// nothing that is manifold becomes non-manifold; so more triangles may be left than were asked for. Vertices and faces
+    /// that are left keep their ids. Values are interpolated along collapsed edges; normals that were given are interpolated,
+    /// too, but cleared where the corners of a collapsed vertex had different ones.
+    ///
+    /// # Errors
+    /// No face is given, or one does not exist; a parameter is out of range; there is no room for the triangles.
+    ///
+    /// ```
+    /// use trigon_mesh::primitives;
+    /// use trigon_modelling::{DecimateGoal, DecimateSettings, EditMesh, FaceId};
+    ///
+    /// let (mut sphere, _) = EditMesh::from_mesh(&primitives::icosphere(1.0, 4));
+    /// let faces: Vec<FaceId> = sphere.faces().collect();
+    /// let settings = DecimateSettings { goal: DecimateGoal::Faces, faces: 500, ..Default::default() };
+    /// let made = sphere.decimate(&faces, &settings)?;
+    /// assert_eq!((sphere.face_count(), made.removed), (500, 4620));
+    /// assert!(sphere.is_watertight());
+    /// # Ok::<(), trigon_modelling::Refusal>(())
+    /// ```
+    pub fn decimate(&mut self, faces: &[FaceId], settings: &DecimateSettings) -> Result<Decimated, Refusal> {
+        settings.check()?;
+        let triangles = self.triangulate_faces(faces)?.faces;
+        let region = Region::new(self, &triangles, "decimating")?;
+        let goal = settings.goal(region.faces.len());
+        let mut surface = Surface::of(self, &region);
+        let error = reduce(self, &mut surface, goal);
+        let faces = self.rebuild(&region, &surface);
+        Ok(Decimated { removed: region.faces.len() - faces.len(), faces, error: error.sqrt() })
+    }
+}
