@@ -12,9 +12,10 @@ use crate::refusal::Refusal;
 const OPERATION: &str = "following a quad";
 
 /// How far a quad that follows another one reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum QuadLength {
     /// As far as the one before, whatever its size on the surface.
     Even,
