@@ -56,6 +56,7 @@ pub(crate) enum ToolKind {
     Bevel,
     BevelVertices,
     LoopCut,
+    Knife,
     EdgeSlide,
     ShrinkFatten,
     PushPull,

@@ -85,13 +85,15 @@ def main():
     rows = []
     # Blender has one scene for each process.
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs, mp_context=multiprocessing.get_context("fork")) as pool:
+        done = 0
         jobs = [pool.submit(compare_mesh, arguments.editor, mesh, arguments.only) for mesh in subjects]
         try:
-            for done, job in enumerate(jobs):
+            for done, job in enumerate(jobs, 1):
                 rows += job.result()
-                print(f"{done + 1} of {len(subjects)} meshes", file=sys.stderr, flush=True)
-        except KeyboardInterrupt:
-            # What is there is reported.
+                print(f"{done} of {len(subjects)} meshes", file=sys.stderr, flush=True)
+        except (KeyboardInterrupt, concurrent.futures.process.BrokenProcessPool) as error:
+            # What is there is reported: Blender itself may crash on a mesh.
+            print(f"ended after {done} meshes: {error!r}", file=sys.stderr, flush=True)
             pool.shutdown(wait=False, cancel_futures=True)
     report(rows, table)
     if arguments.details:

@@ -17,6 +17,7 @@ impl Icon {
             Self::Inset => INSET,
             Self::Bevel => BEVEL,
             Self::LoopCut => LOOP_CUT,
+            Self::Knife => KNIFE,
             Self::Slide => SLIDE,
             Self::ShrinkFatten => SHRINK_FATTEN,
             Self::Vertex => VERTEX,
@@ -175,3 +176,7 @@ const HIDDEN: &[Part] = &[
     Line(&[[0.57, 0.35], [0.6, 0.6]]),
 ];
 const ON: &[Part] = &[Line(&[[-0.7, 0.05], [-0.2, 0.55], [0.75, -0.55]])];
+const KNIFE: &[Part] = &[
+    Loop(&[[0.85, -0.85], [0.25, -0.55], [-0.3, 0.0], [0.0, 0.3], [0.55, -0.25]]),
+    Line(&[[-0.3, 0.3], [-0.85, 0.85]]),
+];

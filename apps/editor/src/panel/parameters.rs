@@ -22,6 +22,19 @@ pub(super) fn group(
     group_in(ui, shown, schema, value, order, Unit::None)
 }
 
+/// Shows the parameters of the variant that a value is, which stays that variant. Tells whether one was changed.
+pub(super) fn of_variant(
+    ui: &mut Ui,
+    shown: ShownDocument<'_>,
+    property: &'static Value,
+    value: &mut Value,
+    order: &KeyOrder,
+) -> bool {
+    let Form::Variants(tag, variants) = form::form(property, Unit::None) else { return false };
+    let Some(variant) = variants.iter().find(|variant| value[tag] == variant.name) else { return false };
+    group_in(ui, shown, variant.schema, value, order, Unit::of_comment(variant.description))
+}
+
 fn group_in(
     ui: &mut Ui,
     shown: ShownDocument<'_>,
@@ -61,6 +74,7 @@ impl Parameter<'_> {
         match form {
             Form::Number(number) => show_number(ui, &label, hover, value, number),
             Form::Switch => show_switch(ui, &label, hover, value),
+            Form::Text if self.name == "object" => self.show_object(ui, &label, hover, value),
             Form::Text => show_text(ui, &label, hover, value),
             Form::Choice(names) => show_choice(ui, &label, hover, value, names),
             Form::Vector(_, number) => self.show_vector(ui, &label, value, number),
@@ -76,6 +90,14 @@ impl Parameter<'_> {
                 false
             }
         }
+    }
+
+    /// A list of the objects with meshes, by their names.
+    fn show_object(&self, ui: &mut Ui, label: &str, hover: &str, value: &mut Value) -> bool {
+        let nodes = self.shown.document.nodes().nodes();
+        let names = nodes.iter().filter(|(_, node)| node.mesh.is_some()).map(|(_, node)| &*node.name);
+        let names: Vec<(&str, &str)> = names.map(|name| (name, "")).collect();
+        show_choice_of(ui, label, hover, value, &names, str::to_owned)
     }
 
     /// A check box for whether there is a value, and the value.
@@ -220,14 +242,26 @@ fn show_text(ui: &mut Ui, label: &str, hover: &str, value: &mut Value) -> bool {
 }
 
 fn show_choice(ui: &mut Ui, label: &str, hover: &str, value: &mut Value, names: &[(&str, &str)]) -> bool {
-    let current = value.as_str().map(form::label).unwrap_or_default();
+    show_choice_of(ui, label, hover, value, names, form::label)
+}
+
+/// A list whose entries are shown as `shown` says.
+fn show_choice_of(
+    ui: &mut Ui,
+    label: &str,
+    hover: &str,
+    value: &mut Value,
+    names: &[(&str, &str)],
+    as_text: fn(&str) -> String,
+) -> bool {
+    let current = value.as_str().map(as_text).unwrap_or_default();
     let mut chosen = None;
     row(ui, label, hover, |ui, width| {
         let list = egui::ComboBox::from_id_salt("choice").width(width).truncate().selected_text(current);
         let shown = list.show_ui(ui, |ui| {
             for (name, hover) in names {
                 let is_chosen = *value == *name;
-                if hovered(ui.selectable_label(is_chosen, form::label(name)), hover).clicked() && !is_chosen {
+                if hovered(ui.selectable_label(is_chosen, as_text(name)), hover).clicked() && !is_chosen {
                     chosen = Some(*name);
                 }
             }

@@ -8,7 +8,7 @@ use trigon_window::{Hands, Input, PointerButton};
 
 use super::expression::Quantity;
 use super::extrude::on;
-use super::modal::{Modal, Step};
+use super::modal::{FaceTool, Modal, Step};
 use super::numeric::NumericEntry;
 use super::selected::placed;
 use super::snap::rounded;
@@ -49,22 +49,6 @@ impl LoopCutTool {
             even: false,
             flipped: false,
         })
-    }
-
-    /// The face that is drawn under the pointer, as the window's picks tell, after each input: the ring
-    /// of its side that is nearest to the pointer is shown. `None` shows nothing.
-    pub(crate) fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>) {
-        if self.sliding.is_some() {
-            return;
-        }
-        let point = self.modal.pointer.in_window().unwrap_or_default();
-        self.hovered = face.and_then(|(id, face)| Some((id, nearest_side(document, view, id, face, point)?)));
-        self.show_ring(document);
-    }
-
-    /// Whether the face under the pointer matters: until a click has cut.
-    pub(crate) fn wants_face(&self) -> bool {
-        self.sliding.is_none()
     }
 
     fn show_ring(&mut self, document: &Document) {
@@ -183,6 +167,23 @@ fn ring_lines(mesh: &EditMesh, edge: EdgeId, cuts: u32, to_world: &DAffine3) -> 
         }
     }
     lines
+}
+
+impl FaceTool for LoopCutTool {
+    /// Until a click has cut.
+    fn wants_face(&self) -> bool {
+        self.sliding.is_none()
+    }
+
+    /// The ring of the side that is nearest to the pointer is shown. `None` shows nothing.
+    fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>) {
+        if self.sliding.is_some() {
+            return;
+        }
+        let point = self.modal.pointer.in_window().unwrap_or_default();
+        self.hovered = face.and_then(|(id, face)| Some((id, nearest_side(document, view, id, face, point)?)));
+        self.show_ring(document);
+    }
 }
 
 impl Tool for LoopCutTool {

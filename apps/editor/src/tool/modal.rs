@@ -3,6 +3,8 @@
 //! what is drawn over the image.
 
 use trigon_document::mesh::math::{DVec2, DVec3};
+use trigon_document::modelling::FaceId;
+use trigon_document::scene::MeshId;
 use trigon_document::{Command, Document};
 use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
 
@@ -142,10 +144,23 @@ impl Modal {
         if self.numeric.is_active() { self.numeric.status() } else { String::new() }
     }
 
+    /// What was refused is done now.
+    pub(crate) fn clear_refusal(&mut self) {
+        self.refusal = None;
+    }
+
+    /// A line for the status bar: the tool's own, and why nothing happens.
+    pub(crate) fn explained(&self, text: String) -> String {
+        match &self.refusal {
+            Some(refusal) => format!("{text} — {refusal}"),
+            None => text,
+        }
+    }
+
     /// A line for the status bar: the tool's, and why nothing happens or how it ends.
     pub(crate) fn status(&self, text: String) -> String {
         match &self.refusal {
-            Some(refusal) => format!("{text} — {refusal}"),
+            Some(_) => self.explained(text),
             None if self.confirms_on_release => format!("{text} — let go: done, right click: cancel"),
             None => format!("{text} — click: done, right click: cancel"),
         }
@@ -178,6 +193,15 @@ pub(crate) trait Tool {
     fn marks(&self) -> ToolMarks {
         ToolMarks::default()
     }
+}
+
+/// A tool that works on what is under the pointer.
+pub(crate) trait FaceTool: Tool {
+    /// Whether the face under the pointer matters now.
+    fn wants_face(&self) -> bool;
+
+    /// The face that is drawn under the pointer, as the window's picks say, after each input.
+    fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>);
 }
 
 /// Whether a tool continues.

@@ -192,13 +192,13 @@ mod tests {
     #[test]
     fn a_file_changes_keys_and_what_it_gets_wrong_is_named_by_line() {
         let (keys, warnings) = Keys::from_json(
-            "{\n \"mesh.inset\": \"Ctrl+F9 U\",\n \"mesh.knife\": \"K\",\n \"select.all\": \"I\"\n}",
+            "{\n \"mesh.inset\": \"Ctrl+F9 U\",\n \"mesh.saw\": \"K\",\n \"select.all\": \"I\"\n}",
         )
         .expect("usable");
         assert_eq!(action_at(&keys, "U", true), Some("mesh.inset"), "as the file says");
         assert_eq!(action_at(&keys, "I", true), Some("select.all"), "its old key is another's");
         assert_eq!(action_at(&keys, "A", true), None, "and A is free");
-        assert!(warnings[0].contains("line 3") && warnings[0].contains("mesh.knife"), "{warnings:?}");
+        assert!(warnings[0].contains("line 3") && warnings[0].contains("mesh.saw"), "{warnings:?}");
         let error = Keys::from_json("{\n \"a\": }").map(|_| ()).expect_err("no JSON");
         assert_eq!(error.line, 2, "{error}");
     }

@@ -13,8 +13,8 @@ use super::pointing::Prefetch;
 use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
-    BevelTool, ExtrudeTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, LoopCutTool, RegionMode,
-    Tool, ToolState, TransformKind, TransformTool,
+    BevelTool, ExtrudeTool, FaceTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, KnifeTool,
+    LoopCutTool, RegionMode, Tool, ToolState, TransformKind, TransformTool,
 };
 
 impl Editor {
@@ -60,11 +60,14 @@ impl Editor {
             ToolKind::Inset => Box::new(InsetTool::start(document, hands, &view)?),
             ToolKind::Bevel => Box::new(BevelTool::start(false, document, hands, &view)?),
             ToolKind::BevelVertices => Box::new(BevelTool::start(true, document, hands, &view)?),
-            _ => {
-                let mut tool = LoopCutTool::start(document, hands)?;
+            kind => {
+                let mut tool: Box<dyn FaceTool> = match kind {
+                    ToolKind::Knife => Box::new(KnifeTool::start(document, hands)?),
+                    _ => Box::new(LoopCutTool::start(document, hands)?),
+                };
                 let face = hands.pointer.and_then(|at| self.pointing.face(document, stage, pane, at));
                 tool.hover(document, &view, face);
-                return Some(What::LoopCut(Box::new(tool)));
+                return Some(What::OnFaces(tool));
             }
         };
         Some(What::Tool(tool))
@@ -147,7 +150,7 @@ impl Editor {
         let before = self.entries();
         let state = match &mut running.what {
             What::Tool(tool) => tool.input(input, hands, &view, &mut self.document),
-            What::LoopCut(tool) => {
+            What::OnFaces(tool) => {
                 let state = tool.input(input, hands, &view, &mut self.document);
                 if tool.wants_face() {
                     let face =

@@ -8,7 +8,7 @@ use trigon_window::{Hands, Input, Modifiers, Pane, PointerButton};
 use super::button_start::ButtonStart;
 use super::button_start::Click;
 use crate::request::ToolKind;
-use crate::tool::{Gesture, GestureKind, LoopCutTool, Tool, ToolMarks, TransformKind};
+use crate::tool::{FaceTool, Gesture, GestureKind, Tool, ToolMarks, TransformKind};
 
 /// A tool or a gesture that runs.
 pub(crate) struct Running {
@@ -28,7 +28,7 @@ pub(crate) struct Running {
 pub(super) enum What {
     Tool(Box<dyn Tool>),
     /// It gets the face under the pointer, too.
-    LoopCut(Box<LoopCutTool>),
+    OnFaces(Box<dyn FaceTool>),
     Gesture(Gesture),
 }
 
@@ -51,7 +51,7 @@ impl Running {
     pub(crate) fn status(&self) -> String {
         match &self.what {
             What::Tool(tool) => self.start.hint().to_owned() + &tool.status(),
-            What::LoopCut(tool) => tool.status(),
+            What::OnFaces(tool) => tool.status(),
             What::Gesture(gesture) => gesture.status().into(),
         }
     }
@@ -60,7 +60,7 @@ impl Running {
     pub(crate) fn marks(&self) -> ToolMarks {
         match &self.what {
             What::Tool(tool) => tool.marks(),
-            What::LoopCut(tool) => tool.marks(),
+            What::OnFaces(tool) => tool.marks(),
             What::Gesture(_) => ToolMarks::default(),
         }
     }
@@ -69,19 +69,21 @@ impl Running {
     pub(crate) fn region(&self) -> Option<Region> {
         match &self.what {
             What::Gesture(gesture) => gesture.shown(),
-            What::Tool(_) | What::LoopCut(_) => None,
+            What::Tool(_) | What::OnFaces(_) => None,
         }
     }
 
     /// Whether an input turns or zooms the view in the middle of the tool.
     pub(super) fn leaves_to_camera(&self, input: &Input, hands: Hands) -> bool {
-        use ToolKind::{Bevel, BevelVertices, Extrude, ExtrudeIndividual, Inset, LoopCut, SelectCircle};
+        use ToolKind::{
+            Bevel, BevelVertices, Extrude, ExtrudeIndividual, Inset, Knife, LoopCut, SelectCircle,
+        };
         match input {
             Input::Pressed(PointerButton::Left) => hands.modifiers.contains(Modifiers::ALT),
             Input::Pressed(PointerButton::Middle) => {
                 let has_no_use = matches!(
                     self.kind,
-                    Extrude | ExtrudeIndividual | Inset | Bevel | BevelVertices | LoopCut
+                    Extrude | ExtrudeIndividual | Inset | Bevel | BevelVertices | LoopCut | Knife
                 );
                 has_no_use || hands.modifiers.contains(Modifiers::ALT)
             }
@@ -103,7 +105,7 @@ impl Running {
     pub(crate) fn pointer_jumped(&mut self, to: DVec2) {
         match &mut self.what {
             What::Tool(tool) => tool.pointer_jumped(to),
-            What::LoopCut(tool) => tool.pointer_jumped(to),
+            What::OnFaces(tool) => tool.pointer_jumped(to),
             What::Gesture(_) => {}
         }
     }

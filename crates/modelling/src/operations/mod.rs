@@ -75,7 +75,7 @@ pub use grid_fill::GridSides;
 pub use hide::VisibilityChange;
 pub use hull::{ConvexHull, HullSettings};
 pub use inset::{Inset, InsetFaces};
-pub use knife::{KnifeCut, KnifePoint};
+pub use knife::{KnifeCut, KnifePoint, SeenLine};
 pub use loop_cut::{LoopCut, LoopCutSettings};
 pub use merge::MergedVertices;
 pub use mirror::Mirrored;

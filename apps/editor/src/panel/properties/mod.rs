@@ -2,6 +2,7 @@
 
 mod elements;
 mod material;
+mod modifiers;
 mod preview;
 mod slots;
 #[cfg(test)]
@@ -69,6 +70,7 @@ pub(crate) fn properties(
             section(ui, "Light", |ui| transform::light(ui, object, light, requests));
         }
         if node.mesh.is_some() {
+            section(ui, "Modifiers", |ui| modifiers::modifiers(ui, object, requests));
             section(ui, "Material", |ui| {
                 material::material(ui, object, &mut state.material, requests);
             });

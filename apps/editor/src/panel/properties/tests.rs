@@ -257,3 +257,35 @@ fn who_lowers_alpha_sees_through() {
         panic!("what was chosen stays: {requests:?}")
     };
 }
+
+#[test]
+fn modifiers_are_added_switched_moved_and_removed_in_the_panel() {
+    let (mut case, [cube, _]) = case(320.0, 1400.0);
+    select(&mut case, "Cube");
+    let names = |case: &mut Case<PropertiesState>| -> Vec<(&'static str, bool)> {
+        let document = case.document();
+        let mesh = document.nodes().node(cube).and_then(|node| node.mesh).expect("the cube's");
+        let stack = document.mesh(mesh).expect("it has modifiers").modifiers();
+        stack.iter().map(|stacked| (stacked.modifier.name(), stacked.is_on)).collect()
+    };
+    for name in ["Mirror", "Array"] {
+        case.click("Add Modifier");
+        case.harness.get_all_by_label(name).last().expect("the menu is open").click();
+        case.run();
+    }
+    assert_eq!(names(&mut case), [("Mirror", true), ("Array", true)]);
+    case.image("modifiers");
+    case.type_number("Count", "5");
+    case.click("Mirror");
+    case.click("Move down Mirror");
+    assert_eq!(names(&mut case), [("Array", true), ("Mirror", false)]);
+    let mesh = case.document().nodes().node(cube).and_then(|node| node.mesh).expect("the cube's");
+    let array = &case.document().mesh(mesh).expect("it has modifiers").modifiers()[0].modifier;
+    let trigon_document::Modifier::Array(array) = array else { panic!("{array:?}") };
+    assert_eq!(array.count, 5, "what was typed");
+    case.click("Apply Array");
+    assert_eq!(names(&mut case), [("Mirror", false)]);
+    assert_eq!(case.document().mesh(mesh).expect("it is edited").face_count(), 30, "five cubes");
+    case.click("Remove Mirror");
+    assert_eq!(names(&mut case), []);
+}

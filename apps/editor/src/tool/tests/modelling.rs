@@ -5,7 +5,7 @@ use trigon_document::modelling::FaceId;
 use trigon_window::{Input, PointerButton};
 
 use super::super::{
-    BevelTool, ExtrudeTool, InsetTool, LoopCutTool, SnapSettings, Tool, ToolState, TransformKind,
+    BevelTool, ExtrudeTool, FaceTool, InsetTool, LoopCutTool, SnapSettings, Tool, ToolState, TransformKind,
 };
 use super::{Session, settings};
 

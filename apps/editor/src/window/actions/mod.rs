@@ -89,7 +89,7 @@ pub(crate) fn named(name: &str) -> Option<&'static Action> {
 }
 
 /// The tools of the bar on the left, by the names of their actions.
-const TOOLS: [(&str, Icon); 12] = [
+const TOOLS: [(&str, Icon); 13] = [
     ("select.box", Icon::SelectBox),
     ("select.circle", Icon::SelectCircle),
     ("select.lasso", Icon::SelectLasso),
@@ -100,6 +100,7 @@ const TOOLS: [(&str, Icon); 12] = [
     ("mesh.inset", Icon::Inset),
     ("mesh.bevel", Icon::Bevel),
     ("mesh.loop_cut", Icon::LoopCut),
+    ("mesh.knife", Icon::Knife),
     ("mesh.edge_slide", Icon::Slide),
     ("tool.shrink_fatten", Icon::ShrinkFatten),
 ];

@@ -178,6 +178,7 @@ actions! {
     "Mesh" "mesh.bevel" "Bevel Edges" "Ctrl+B" Elements Tool(ToolKind::Bevel) => "Replaces edges with faces; the wheel changes the segments.";
     "Mesh" "mesh.bevel_vertices" "Bevel Vertices" "Ctrl+Shift+B" Elements Tool(ToolKind::BevelVertices) => "Replaces vertices with faces.";
     "Mesh" "mesh.loop_cut" "Loop Cut" "Ctrl+R" EditMode Tool(ToolKind::LoopCut) => "Cuts loops across a ring of quads; the wheel changes their number.";
+    "Mesh" "mesh.knife" "Knife" "K" EditMode Tool(ToolKind::Knife) => "Cuts faces along a line of clicks, straight across the faces between them; Enter cuts.";
     "Mesh" "mesh.edge_slide" "Slide" "Shift+V" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours, or vertices along their edges (G G).";
     "Mesh" "mesh.subdivide" "Subdivide" "" Elements Run(r#"{"op":"subdivide"}"#) => "Cuts the selected edges in half.";
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes into smooth surfaces.";

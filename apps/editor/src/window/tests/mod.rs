@@ -4,6 +4,7 @@ mod first_hour;
 mod four_views;
 mod images;
 mod keys;
+mod knife;
 mod rows;
 mod saving;
 mod selections;

@@ -1,6 +1,7 @@
 //! The knife: cuts faces along a path.
 
 mod divide;
+mod line;
 mod path;
 
 use std::collections::BTreeMap;
@@ -10,6 +11,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use crate::refusal::Refusal;
 use divide::Inside;
+pub use line::SeenLine;
 use path::Stretch;
 use trigon_math::Vec3;
 
@@ -49,8 +51,8 @@ impl EditMesh {
     /// faces by mean value coordinates (Floater, "Mean value coordinates", 2003), which are exact for values
     /// that are affine in position.
     ///
-    /// Unlike in Blender's tool, the points are given: the caller determines where lines seen from a camera
-    /// meet edges.
+    /// Unlike in Blender's tool, the points are given; [`EditMesh::knife_line`] determines where a line that is seen from a
+    /// camera meets edges.
     ///
     /// # Errors
     /// There are fewer than two points; an element does not exist; a position on an edge is not
