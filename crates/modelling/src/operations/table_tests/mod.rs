@@ -9,7 +9,7 @@ use trigon_mesh::triangulate_polygon;
 
 use super::*;
 use crate::tests::check_operation;
-use crate::{CornerId, EdgeId, EditMesh, FaceId, Refusal, VertexId};
+use crate::{BooleanOperation, CornerId, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use inputs::Input;
 use oracles::Facts;
 
