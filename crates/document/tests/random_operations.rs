@@ -179,6 +179,31 @@ fn operations() -> Vec<Operation> {
             Some("edge", 2),
             |r, _| json!({ "direction": (vector(r)), "fill": (r.below(2) == 0) }),
         ),
+        operation(
+            "solidify",
+            Some("face", 3),
+            |r, _| json!({ "thickness": 0.05, "offset": (signed(r)), "even": (r.below(2) == 0) }),
+        ),
+        operation(
+            "spin",
+            Some("edge", 2),
+            |r, _| json!({ "axis": (vector(r)), "angle": (90.0 * signed(r)), "steps": (1 + r.below(3)) }),
+        ),
+        operation("decimate", Some("face", 30), |r, _| json!({ "ratio": (r.between(0.5, 1.0)) })),
+        operation("bisect", Some("face", 4), |r, _| {
+            let [clear_outer, clear_inner, fill] = [6, 6, 2].map(|times| r.below(times) == 0);
+            json!({
+                "point": (vector(r).map(|x| 0.3 * x)), "normal": (vector(r)), "clear_outer": clear_outer,
+                "clear_inner": clear_inner, "fill": fill
+            })
+        }),
+        operation(
+            "wireframe",
+            Some("face", 2),
+            |r, _| json!({ "thickness": 0.02, "replace": (r.below(2) == 0) }),
+        ),
+        operation("poke", Some("face", 2), |r, _| json!({ "offset": (0.2 * signed(r)) })),
+        operation("convex_hull", Some("vertex", 8), |r, _| json!({ "replace": (r.below(2) == 0) })),
         operation("duplicate", Some("face", 3), |r, _| json!({ "offset": (vector(r)) })),
         operation("split_off", Some("face", 2), |_, _| json!({})),
         operation("dissolve", Some("edge", 1), |_, _| json!({})),

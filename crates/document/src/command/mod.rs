@@ -19,16 +19,20 @@ mod mirror;
 mod modifier;
 mod parts;
 mod paste;
+mod poke;
 mod project_around;
 mod reference;
 mod scene;
 mod select;
+mod select_by_trait;
 mod select_elements;
 mod select_related;
 mod separate;
 mod set_origin;
 mod set_transform;
+mod solid;
 mod space;
+mod spin;
 mod surface;
 mod texture;
 mod transform;
@@ -57,6 +61,7 @@ pub use modifier::{
 };
 pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
+pub use poke::{ConvexHull, Poke};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
 pub use reference::{command_reference, command_schema};
 pub use scene::{
@@ -66,6 +71,7 @@ pub use select::{
     EditObjects, LeaveEditMode, Select, SelectAction, SelectAll, SelectInverse, SelectNone, SelectWithin,
     SetElementKind,
 };
+pub use select_by_trait::{ElementTrait, SelectByTrait, SideComparison};
 pub use select_elements::{ElementsOf, SelectElements};
 pub use select_related::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectLess, SelectLinked, SelectLoop, SelectMore,
@@ -75,7 +81,9 @@ pub use separate::{Separate, SeparateBy};
 pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
 pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
+pub use solid::{Decimate, Solidify, Wireframe};
 pub use space::TransformSpace;
+pub use spin::{Bisect, Spin};
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads};
 pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
 pub use transform::{
@@ -84,7 +92,7 @@ pub use transform::{
 pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
     ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation,
-    DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, ScrewModifier, SolidifyModifier,
+    DecimateGoal, DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, ScrewModifier, SolidifyModifier,
     SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
@@ -167,6 +175,8 @@ commands! {
     SelectBorder("Select Border", true),
     /// Selects edges where the number of faces is not two.
     SelectNonManifold("Select Non-Manifold", true),
+    /// Selects elements by what they are.
+    SelectByTrait("Select by Trait", true),
     /// Selects sharp edges.
     SelectSharp("Select Sharp Edges", true),
     /// Selects faces by direction.
@@ -203,6 +213,12 @@ commands! {
     Inset("Inset", false),
     /// Replaces edges or vertices with new faces.
     Bevel("Bevel", false),
+    /// Gives faces a second layer, so that they become walls.
+    Solidify("Solidify", false),
+    /// Makes struts of edges.
+    Wireframe("Wireframe", false),
+    /// Sweeps elements around an axis.
+    Spin("Spin", false),
     /// Duplicates the selection within its mesh.
     Duplicate("Duplicate", false),
     /// Splits off the selected faces.
@@ -235,12 +251,18 @@ commands! {
     ApplyModifier("Apply Modifier", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
+    /// Cuts faces into triangles around new vertices.
+    Poke("Poke Faces", false),
     /// Joins triangles into quads.
     TrisToQuads("Tris to Quads", false),
+    /// Reduces the number of triangles.
+    Decimate("Decimate", false),
     /// Fills loops with faces.
     Fill("Fill", false),
     /// Fills a loop with a grid.
     GridFill("Grid Fill", false),
+    /// Makes the smallest convex solid around vertices.
+    ConvexHull("Convex Hull", false),
     /// Removes elements without leaving holes.
     Dissolve("Dissolve", false),
     /// Dissolves elements in flat areas.
@@ -253,6 +275,8 @@ commands! {
     SlideEdges("Slide Edges", false),
     /// Cuts faces along a path.
     Knife("Knife", false),
+    /// Cuts faces along a plane.
+    Bisect("Bisect", false),
     /// Slides vertices along their edges.
     SlideVertices("Slide Vertices", false),
     /// Merges the selected vertices.

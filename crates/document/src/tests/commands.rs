@@ -25,3 +25,19 @@ pub(crate) fn edit_faces(document: &mut Document, objects: &[&str]) {
     run(document, json!({ "op": "edit_objects", "objects": objects }));
     run(document, json!({ "op": "set_element_kind", "kind": "face" }));
 }
+
+/// A document with one object, all of whose faces are selected.
+pub(crate) fn editing_faces(mesh: trigon_mesh::Mesh) -> Document {
+    let mut scene = trigon_scene::Scene::new();
+    scene.add_object("object", mesh, trigon_scene::Material::default());
+    let mut document = Document::new(scene);
+    edit_faces(&mut document, &["object"]);
+    run(&mut document, json!({ "op": "select_all" }));
+    document
+}
+
+/// The first edited mesh.
+pub(crate) fn edited(document: &Document) -> &trigon_modelling::EditMesh {
+    let (id, _) = document.selection().meshes().next().expect("one is edited");
+    document.mesh(id).expect("it is there")
+}

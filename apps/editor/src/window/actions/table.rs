@@ -155,6 +155,9 @@ actions! {
     "Select" "select.path" "Shortest Path" "" Elements Run(r#"{"op":"select_path"}"#) => "Selects the shortest path between the last two (Ctrl+click).";
     "Select/By Trait" "select.border" "Border" "" EditMode Run(r#"{"op":"select_border"}"#) => "Selects boundary edges.";
     "Select/By Trait" "select.non_manifold" "Non-Manifold" "" EditMode Run(r#"{"op":"select_non_manifold"}"#) => "Selects edges where the number of faces is not two.";
+    "Select/By Trait" "trait.sides" "Faces by Sides" "" EditMode Run(r#"{"op":"select_by_trait"}"#) => "Selects quads; adjust the number of sides with F9.";
+    "Select/By Trait" "trait.loose" "Loose Geometry" "" EditMode Run(r#"{"op":"select_by_trait","by":"loose"}"#) => "Selects elements that no other uses.";
+    "Select/By Trait" "trait.interior" "Interior Faces" "" EditMode Run(r#"{"op":"select_by_trait","by":"interior"}"#) => "Selects faces all of whose edges have more than two faces.";
     "Select/By Trait" "select.sharp" "Sharp Edges" "" EditMode Run(r#"{"op":"select_sharp"}"#) => "Selects edges whose faces meet at a large angle.";
     "Select/By Trait" "select.normal" "By Direction" "" EditMode Run(r#"{"op":"select_by_normal"}"#) => "Selects faces that point up; adjust the direction with F9.";
     "Select/By Trait" "select.material" "By Material" "" EditMode Run(r#"{"op":"select_by_material"}"#) => "Selects faces of a material slot; choose it with F9.";
@@ -190,7 +193,14 @@ actions! {
     "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";
     "Mesh" "mesh.connect" "Connect Vertices" "J" Elements Run(r#"{"op":"connect_vertices"}"#) => "Connects vertices with edges through faces.";
     "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two edge loops, or the outlines of two faces, with faces.";
+    "Mesh" "mesh.solidify" "Solidify Faces" "" Elements Run(r#"{"op":"solidify"}"#) => "Gives faces a second layer behind them; adjust the thickness with F9.";
+    "Mesh" "mesh.wireframe" "Wireframe" "" Elements Run(r#"{"op":"wireframe"}"#) => "Makes struts of the edges of faces; adjust the thickness with F9.";
+    "Mesh" "mesh.spin" "Spin" "" Elements Run(r#"{"op":"spin"}"#) => "Sweeps edges and vertices around an upright axis; adjust it with F9.";
+    "Mesh" "mesh.bisect" "Bisect" "" Elements Run(r#"{"op":"bisect"}"#) => "Cuts faces along the plane x = 0; adjust it with F9.";
+    "Mesh" "mesh.decimate" "Decimate" "" Elements Run(r#"{"op":"decimate"}"#) => "Reduces the triangles of faces to half; adjust it with F9.";
     "Mesh" "mesh.triangulate" "Triangulate" "Ctrl+T" Elements Run(r#"{"op":"triangulate"}"#) => "Cuts faces into triangles.";
+    "Mesh" "mesh.poke" "Poke Faces" "" Elements Run(r#"{"op":"poke"}"#) => "Cuts faces into triangles around new vertices; adjust their height with F9.";
+    "Mesh" "mesh.convex_hull" "Convex Hull" "" Elements Run(r#"{"op":"convex_hull"}"#) => "Makes the smallest convex solid around the selection.";
     "Mesh" "mesh.tris_to_quads" "Tris to Quads" "Alt+J" Elements Run(r#"{"op":"tris_to_quads"}"#) => "Joins triangles into quads.";
     "Mesh" "mesh.symmetrize" "Symmetrize" "" Elements Run(r#"{"op":"symmetrize"}"#) => "Makes faces symmetric about x = 0; adjust the plane with F9.";
     "Mesh/Boolean" "mesh.boolean_union" "Union" "" Elements Run(r#"{"op":"boolean","operation":"union"}"#) => "Unites the selected closed part of a mesh with its other faces.";
