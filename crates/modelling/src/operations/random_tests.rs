@@ -2,7 +2,7 @@
 //! non-manifold or open.
 
 use proptest::prelude::*;
-use trigon_math::{DMat3, DVec3, Plane};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane};
 
 use super::*;
 use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
@@ -21,7 +21,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 26 {
+    match kind % 27 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -65,6 +65,14 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             &CylinderProjection { axis: center, ..Default::default() },
         ),
         24 => mesh.project_uvs_on_sphere(&faces, 1, &SphereProjection { axis: center, ..Default::default() }),
+        25 => {
+            let copy = mesh.clone();
+            let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_y(b), center);
+            let operation =
+                [BooleanOperation::Union, BooleanOperation::Difference, BooleanOperation::Intersection]
+                    [bits as usize % 3];
+            mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -100,7 +108,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 26)) {
+            if (5..15).contains(&(kind % 27)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

@@ -2,7 +2,7 @@
 
 use trigon_math::DVec3;
 
-use super::BooleanOperation;
+use super::operation::BooleanOperation;
 
 /// A triangle, counter-clockwise seen from outside, and the patch that it is a part of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

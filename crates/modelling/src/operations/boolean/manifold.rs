@@ -13,8 +13,8 @@ use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{BooleanEngine, Error, MeshGLP, OpType};
 use trigon_math::DVec3;
 
-use super::BooleanOperation;
 use super::kernel::{BooleanKernel, KernelFault, PatchTriangle, PatchedTriangles};
+use super::operation::BooleanOperation;
 
 type Exchanged = MeshGLP<f64, u32>;
 
