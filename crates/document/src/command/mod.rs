@@ -91,8 +91,8 @@ pub use transform::{
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
-    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation,
-    DecimateGoal, DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, ScrewModifier, SolidifyModifier,
+    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
+    DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, ScrewModifier, SolidifyModifier,
     SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
