@@ -6,7 +6,7 @@ use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane};
 
 use super::*;
 use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
-use crate::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
+use crate::{BooleanOperation, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 
 /// About half of some elements, as the bits of a number say, repeated.
 fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
