@@ -70,10 +70,11 @@ def blender_mesh(name, mesh):
 def in_blender(a, b, matrix, operation):
     """Seconds, volume, faces, and whether the result is closed."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    one, other = blender_mesh("a", a), blender_mesh("b", b)
+    moved = b.copy()
+    moved.apply_transform(matrix)
+    one, other = blender_mesh("a", a), blender_mesh("b", moved)
     for made in (one, other):
         bpy.context.scene.collection.objects.link(made)
-    other.matrix_world = [list(row) for row in matrix]
     modifier = one.modifiers.new("boolean", "BOOLEAN")
     modifier.operation, modifier.solver, modifier.object = operation, "EXACT", other
     start = time.perf_counter()

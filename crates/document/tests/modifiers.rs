@@ -242,9 +242,19 @@ impl Session {
                 true
             }
             Modifier::Weld(settings) => self.merge(settings.distance),
-            Modifier::Solidify(_) | Modifier::Decimate(_) | Modifier::Screw(_) | Modifier::Boolean(_) => {
-                false
+            Modifier::Solidify(settings) => {
+                self.select_all("face");
+                let solidify = json!({
+                    "op": "solidify", "thickness": settings.thickness, "offset": settings.offset,
+                    "even": settings.even, "rim": settings.rim,
+                });
+                !has_faces || self.run(solidify)
             }
+            Modifier::Decimate(settings) => {
+                self.select_all("face");
+                !has_faces || self.run(json!({ "op": "decimate", "ratio": settings.ratio }))
+            }
+            Modifier::Screw(_) | Modifier::Boolean(_) => false,
             Modifier::Triangulate(settings) => {
                 let is_large = |&face: &_| self.mesh().face_size(face) >= settings.least_corners as usize;
                 let faces: Vec<u32> = self.mesh().faces().filter(is_large).map(|face| face.index()).collect();
@@ -261,12 +271,9 @@ impl Session {
     }
 }
 
-/// Whether a command does the same with elements.
+/// Whether a command does the same with elements that can be selected together.
 fn has_command(modifier: &Modifier) -> bool {
-    !matches!(
-        modifier,
-        Modifier::Solidify(_) | Modifier::Decimate(_) | Modifier::Screw(_) | Modifier::Boolean(_)
-    )
+    !matches!(modifier, Modifier::Screw(_) | Modifier::Boolean(_))
 }
 
 /// Compares what is shown now with what is made in both ways. Returns how many modifiers were shown.

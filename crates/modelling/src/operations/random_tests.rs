@@ -2,11 +2,11 @@
 //! non-manifold or open.
 
 use proptest::prelude::*;
-use trigon_math::{DMat3, DVec3, Plane};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane};
 
 use super::*;
 use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
-use crate::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
+use crate::{BooleanOperation, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 
 /// About half of some elements, as the bits of a number say, repeated.
 fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
@@ -21,7 +21,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 33 {
+    match kind % 34 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -91,6 +91,14 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             let settings = WireframeSettings { thickness: b.abs(), replace: a > 0.0 };
             mesh.wireframe_faces(&faces, &settings).map(drop)
         }
+        32 => {
+            let copy = mesh.clone();
+            let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_y(b), center);
+            let operation =
+                [BooleanOperation::Union, BooleanOperation::Difference, BooleanOperation::Intersection]
+                    [bits as usize % 3];
+            mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -126,7 +134,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 33)) {
+            if (5..15).contains(&(kind % 34)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

@@ -1,5 +1,7 @@
 //! Wireframes: the edges of faces become struts.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use trigon_math::DVec3;
 
 use super::region::Region;
@@ -10,7 +12,7 @@ use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
 /// Parameters of [`EditMesh::wireframe_faces`].
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WireframeSettings {
     /// The width and height of struts, in metres; at least 0.

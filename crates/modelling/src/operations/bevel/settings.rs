@@ -1,5 +1,8 @@
 //! The settings of a bevel.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::refusal::Refusal;
 
 const MOST_SEGMENTS: usize = 100;
@@ -54,9 +57,7 @@ impl Default for BevelSettings {
 /// What the width of a bevel measures. A rim is a new edge beside an old face. If a distance of rims or a height is
 /// measured, no rim is farther from the old edge than 20 times the width, which almost flat and almost folded edges
 /// would exceed.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BevelWidth {
     /// For edges, the distance of each new rim from the old edge, in the face's plane; for vertices the
@@ -76,9 +77,7 @@ pub enum BevelWidth {
 }
 
 /// The shape of a rim at a reflex angle between two beveled edges of one face.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OuterMiter {
     /// Both rims go on until they meet.
@@ -91,9 +90,7 @@ pub enum OuterMiter {
 }
 
 /// The shape of a rim at another angle between two beveled edges of one face.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InnerMiter {
     /// Both rims go on until they meet.

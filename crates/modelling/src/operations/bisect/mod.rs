@@ -9,6 +9,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use fixedbitset::FixedBitSet;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use trigon_math::{DVec3, Plane};
 
 use self::loops::CutEdge;
@@ -21,9 +23,7 @@ use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
 /// Parameters of [`EditMesh::bisect`].
-#[derive(
-    Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BisectSettings {
     /// Whether what is in front of the plane, where its normal points to, is removed.

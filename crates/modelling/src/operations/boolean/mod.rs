@@ -10,6 +10,7 @@
 mod coincident;
 mod kernel;
 mod manifold;
+mod operation;
 mod outlines;
 mod polygons;
 mod solid;
@@ -24,35 +25,16 @@ use trigon_math::DAffine3;
 use self::coincident::PatchTriangles;
 use self::kernel::{BooleanKernel, KernelFault, PatchedTriangles};
 use self::manifold::ManifoldKernel;
-use self::outlines::{Outline, outlines};
+use self::operation::OPERATION;
+pub use self::operation::{BooleanTool, Combined};
+use self::outlines::{PatchPolygon, outlines};
 use self::solid::Sources;
 use self::weave::Weave;
 use crate::edit_mesh::EditMesh;
-use crate::ids::{EdgeId, FaceId};
+use crate::ids::FaceId;
 use crate::modifier::BooleanOperation;
 use crate::refusal::Refusal;
 use crate::slots::NewElements;
-
-const OPERATION: &str = "a boolean";
-
-/// A mesh that is combined with another one.
-#[derive(Debug, Clone, Copy)]
-pub struct BooleanTool<'m> {
-    /// The mesh. It has to bound a volume: [`EditMesh::check_solid`].
-    pub mesh: &'m EditMesh,
-    /// From its space to that of the other mesh, in metres.
-    pub transform: DAffine3,
-}
-
-/// What a boolean made.
-#[derive(Debug, Clone, PartialEq, Default)]
-#[non_exhaustive]
-pub struct Combined {
-    /// The faces that are new, or come from tools.
-    pub faces: Vec<FaceId>,
-    /// The edges where faces of different operands meet.
-    pub edges: Vec<EdgeId>,
-}
 
 impl EditMesh {
     /// Combines the volume inside this mesh with those inside others. What is left of this mesh may be nothing.
@@ -147,7 +129,7 @@ fn moved(tool: &BooleanTool<'_>) -> Result<EditMesh, Refusal> {
 }
 
 /// The most elements that are added: those of tools, and those that outlines may need.
-fn needed(tools: &[EditMesh], solid: &PatchedTriangles, outlines: &[Outline]) -> NewElements {
+fn needed(tools: &[EditMesh], solid: &PatchedTriangles, outlines: &[PatchPolygon]) -> NewElements {
     let corners: u64 = outlines.iter().map(|outline| outline.vertices.len() as u64).sum();
     let mut all = NewElements {
         vertices: solid.positions.len() as u64,

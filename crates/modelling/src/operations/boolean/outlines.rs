@@ -12,13 +12,13 @@ use super::surface::{regions, tidied};
 
 /// A polygon: a part of a patch.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Outline {
+pub(super) struct PatchPolygon {
     pub(super) patch: u32,
     /// Indices of vertices of the triangles that it was joined from: none twice.
     pub(super) vertices: Vec<u32>,
 }
 
-impl Outline {
+impl PatchPolygon {
     /// Its sides: from one vertex to the next.
     pub(super) fn sides(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let next = self.vertices.iter().cycle().skip(1);
@@ -30,11 +30,14 @@ impl Outline {
 /// out where the boundary runs straight through them.
 ///
 /// `None` if some side of a polygon has no opposite one: the triangles were not closed, or not a surface.
-pub(super) fn outlines(solid: &PatchedTriangles, is_given: impl Fn(u32) -> bool) -> Option<Vec<Outline>> {
+pub(super) fn outlines(
+    solid: &PatchedTriangles,
+    is_given: impl Fn(u32) -> bool,
+) -> Option<Vec<PatchPolygon>> {
     let triangles = tidied(solid);
     let mut outlines = Vec::new();
     for region in regions(&triangles) {
-        polygons(&region.triangles, |vertices| outlines.push(Outline { patch: region.patch, vertices }));
+        polygons(&region.triangles, |vertices| outlines.push(PatchPolygon { patch: region.patch, vertices }));
     }
     outlines.sort_by_key(|outline| outline.patch);
     leave_out_straight(&mut outlines, &solid.positions, is_given);
@@ -45,7 +48,7 @@ pub(super) fn outlines(solid: &PatchedTriangles, is_given: impl Fn(u32) -> bool)
 /// Leaves out vertices at which two sides meet that run straight on.
 ///
 /// Both polygons there are flat, so their common border is a straight line: nothing adds up.
-fn leave_out_straight(outlines: &mut [Outline], positions: &[DVec3], is_given: impl Fn(u32) -> bool) {
+fn leave_out_straight(outlines: &mut [PatchPolygon], positions: &[DVec3], is_given: impl Fn(u32) -> bool) {
     let mut borders = Borders::of(outlines, positions.len());
     let mut is_left_out = vec![false; positions.len()];
     for vertex in 0..positions.len() as u32 {
@@ -80,7 +83,7 @@ struct Borders {
 }
 
 impl Borders {
-    fn of(outlines: &[Outline], vertices: usize) -> Self {
+    fn of(outlines: &[PatchPolygon], vertices: usize) -> Self {
         let mut borders = Self {
             neighbors: vec![SmallVec::new(); vertices],
             owners: HashMap::new(),
@@ -120,7 +123,7 @@ impl Borders {
 }
 
 /// Without pairs of polygons over the same vertices: with nothing between them they bound no volume.
-fn without_opposites(outlines: Vec<Outline>) -> Vec<Outline> {
+fn without_opposites(outlines: Vec<PatchPolygon>) -> Vec<PatchPolygon> {
     let mut known: HashMap<Vec<u32>, usize> = HashMap::with_capacity(outlines.len());
     let mut is_gone = vec![false; outlines.len()];
     for (number, outline) in outlines.iter().enumerate() {
@@ -136,9 +139,9 @@ fn without_opposites(outlines: Vec<Outline>) -> Vec<Outline> {
 }
 
 /// Whether each side is there once, and so is its opposite.
-fn is_closed(outlines: &[Outline]) -> bool {
+fn is_closed(outlines: &[PatchPolygon]) -> bool {
     let count: usize = outlines.iter().map(|outline| outline.vertices.len()).sum();
     let mut sides: HashSet<[u32; 2]> = HashSet::with_capacity(count);
-    let is_first = outlines.iter().flat_map(Outline::sides).all(|side| sides.insert(side));
+    let is_first = outlines.iter().flat_map(PatchPolygon::sides).all(|side| sides.insert(side));
     is_first && sides.iter().all(|&[from, to]| sides.contains(&[to, from]))
 }

@@ -63,7 +63,7 @@ impl<'t> Growth<'t> {
     /// The polygon that grows from a triangle.
     fn grown(&mut self, seed: usize) -> Vec<u32> {
         self.is_placed[seed] = true;
-        let mut ring = Ring::of(self.triangles[seed]);
+        let mut ring = GrowingPolygon::of(self.triangles[seed]);
         let mut waiting: VecDeque<[u32; 2]> = sides(self.triangles[seed]).into();
         while let Some([from, to]) = waiting.pop_front() {
             let owner = self.owners.get(&[to, from]).copied().filter(|&owner| !self.is_placed[owner]);
@@ -79,12 +79,12 @@ impl<'t> Growth<'t> {
 }
 
 /// A polygon as a ring of vertices.
-struct Ring {
+struct GrowingPolygon {
     first: u32,
     next: HashMap<u32, u32>,
 }
 
-impl Ring {
+impl GrowingPolygon {
     fn of([a, b, c]: [u32; 3]) -> Self {
         Self { first: a, next: [(a, b), (b, c), (c, a)].into() }
     }

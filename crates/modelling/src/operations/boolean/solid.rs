@@ -8,8 +8,8 @@ use std::ops::Range;
 use trigon_math::{DVec3, DisjointSets, Vec3, area_vector};
 use trigon_mesh::{EdgeJoin, Triangulator};
 
-use super::OPERATION;
 use super::kernel::{PatchTriangle, PatchedTriangles};
+use super::operation::OPERATION;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::{Refusal, SolidFault};

@@ -9,7 +9,7 @@ use super::solid::FLATNESS;
 
 /// A connected part of a patch.
 #[derive(Debug)]
-pub(super) struct Region {
+pub(super) struct PatchPart {
     pub(super) patch: u32,
     pub(super) triangles: Vec<[u32; 3]>,
 }
@@ -20,7 +20,7 @@ pub(super) fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
 }
 
 /// The connected parts of all patches, in the order of their first triangles.
-pub(super) fn regions(triangles: &[PatchTriangle]) -> Vec<Region> {
+pub(super) fn regions(triangles: &[PatchTriangle]) -> Vec<PatchPart> {
     let mut owners: HashMap<[u32; 2], u32> = HashMap::with_capacity(3 * triangles.len());
     for (number, triangle) in (0u32..).zip(triangles) {
         owners.extend(sides(triangle.vertices).map(|side| (side, number)));
@@ -34,9 +34,9 @@ pub(super) fn regions(triangles: &[PatchTriangle]) -> Vec<Region> {
             }
         }
     }
-    let mut regions: BTreeMap<u32, Region> = BTreeMap::new();
+    let mut regions: BTreeMap<u32, PatchPart> = BTreeMap::new();
     for (number, triangle) in (0u32..).zip(triangles) {
-        let empty = || Region { patch: triangle.patch, triangles: Vec::new() };
+        let empty = || PatchPart { patch: triangle.patch, triangles: Vec::new() };
         regions.entry(sets.root(number)).or_insert_with(empty).triangles.push(triangle.vertices);
     }
     regions.into_values().collect()

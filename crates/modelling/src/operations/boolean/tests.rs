@@ -7,8 +7,8 @@ use trigon_math::{DAffine3, DQuat, DVec3};
 use trigon_mesh::{Mesh, primitives};
 
 use super::*;
-use crate::VertexId;
 use crate::tests::{check_operation, keeps_affine_values, with_affine_values};
+use crate::{EdgeId, VertexId};
 
 use BooleanOperation::{Difference, Intersection, Union};
 

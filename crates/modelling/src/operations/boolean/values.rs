@@ -8,7 +8,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 
 /// Corners and their weights, which add up to 1.
-type Parts = SmallVec<[(CornerId, f64); 3]>;
+type CornerWeights = SmallVec<[(CornerId, f64); 3]>;
 
 /// A face that others are parts of, or a triangle of it.
 pub(super) struct SourceFace<'s> {
@@ -32,7 +32,7 @@ impl<'s> SourceFace<'s> {
     }
 
     /// What a value in a position of the face is made of.
-    pub(super) fn parts_at(&self, mesh: &EditMesh, position: DVec3) -> Parts {
+    pub(super) fn parts_at(&self, mesh: &EditMesh, position: DVec3) -> CornerWeights {
         let of = |triangle: &[u32; 3]| {
             let corners = triangle.map(|corner| self.corners[corner as usize]);
             let weights = weights(corners.map(|corner| mesh.point(mesh.corner_vertex(corner))), position)?;

@@ -6,8 +6,8 @@ use std::ops::Range;
 use smallvec::SmallVec;
 use trigon_math::{DVec3, Vec3};
 
-use super::Combined;
-use super::outlines::Outline;
+use super::operation::Combined;
+use super::outlines::PatchPolygon;
 use super::solid::Sources;
 use super::values::SourceFace;
 use crate::edit_mesh::EditMesh;
@@ -66,7 +66,7 @@ impl<'m> Weave<'m> {
 
     pub(super) fn run(
         mut self,
-        outlines: &[Outline],
+        outlines: &[PatchPolygon],
         operation: BooleanOperation,
     ) -> Result<Combined, Refusal> {
         self.find_vertices(outlines);
@@ -100,8 +100,8 @@ impl<'m> Weave<'m> {
     }
 
     /// The outlines of each face that has any: they follow each other.
-    fn by_face(&self, outlines: &[Outline]) -> Vec<Range<usize>> {
-        let face = |outline: &Outline| {
+    fn by_face(&self, outlines: &[PatchPolygon]) -> Vec<Range<usize>> {
+        let face = |outline: &PatchPolygon| {
             let patch = &self.sources.patches[outline.patch as usize];
             (patch.operand, patch.face)
         };
@@ -117,7 +117,7 @@ impl<'m> Weave<'m> {
 
     /// Finds the vertex of the mesh for each vertex of outlines: one of the faces that they are parts of, in the same
     /// position, or a new one.
-    fn find_vertices(&mut self, outlines: &[Outline]) {
+    fn find_vertices(&mut self, outlines: &[PatchPolygon]) {
         let mut known: BTreeMap<u32, SmallVec<[VertexId; 2]>> = BTreeMap::new();
         for outline in outlines {
             let face = self.source(outline.patch);
@@ -173,7 +173,7 @@ impl<'m> Weave<'m> {
     }
 
     /// An outline's vertices in the mesh, as the face runs that it is a part of.
-    fn ring(&self, outline: &Outline, is_turned: bool) -> Vec<VertexId> {
+    fn ring(&self, outline: &PatchPolygon, is_turned: bool) -> Vec<VertexId> {
         let mut ring: Vec<VertexId> =
             outline.vertices.iter().map(|&vertex| VertexId(self.vertices[vertex as usize])).collect();
         if is_turned {
@@ -183,9 +183,9 @@ impl<'m> Weave<'m> {
     }
 
     /// Whether a face is left as it is: its outlines are all of its patches, as a whole.
-    fn is_unchanged(&self, face: FaceId, outlines: &[Outline], is_turned: bool) -> bool {
+    fn is_unchanged(&self, face: FaceId, outlines: &[PatchPolygon], is_turned: bool) -> bool {
         let corners: Vec<VertexId> = self.mesh.face_vertices(face).collect();
-        let is_whole = |outline: &Outline| {
+        let is_whole = |outline: &PatchPolygon| {
             let patch = &self.sources.patches[outline.patch as usize];
             let is_face = self.sources.triangles[patch.triangles.clone()].len() + 2 == corners.len();
             let ring = self.ring(outline, is_turned);
@@ -205,7 +205,7 @@ impl<'m> Weave<'m> {
     fn lay_pieces(
         &mut self,
         face: FaceId,
-        outlines: &[Outline],
+        outlines: &[PatchPolygon],
         is_turned: bool,
     ) -> Result<Vec<FaceId>, Refusal> {
         let mut pieces = Vec::with_capacity(outlines.len());
@@ -243,7 +243,7 @@ impl<'m> Weave<'m> {
     }
 
     /// The edges at which outlines of different operands meet.
-    fn seams(&self, outlines: &[Outline]) -> Vec<EdgeId> {
+    fn seams(&self, outlines: &[PatchPolygon]) -> Vec<EdgeId> {
         let mut operands: HashMap<[u32; 2], usize> = HashMap::new();
         let mut edges = Vec::new();
         for outline in outlines {

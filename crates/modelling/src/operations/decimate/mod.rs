@@ -12,6 +12,9 @@ mod surface;
 mod tests;
 mod wedges;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use self::collapse::{Goal, reduce};
 use self::surface::Surface;
 use super::region::Region;
@@ -20,9 +23,7 @@ use crate::ids::FaceId;
 use crate::refusal::Refusal;
 
 /// When a reduction ends.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DecimateGoal {
     /// At a part of the triangles.
@@ -35,7 +36,7 @@ pub enum DecimateGoal {
 }
 
 /// Parameters of [`EditMesh::decimate`].
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DecimateSettings {
     /// When to end; the other goals' values are not used.

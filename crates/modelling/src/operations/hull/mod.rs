@@ -6,6 +6,9 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use self::build::hull_polygons;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
@@ -14,7 +17,7 @@ use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
 /// Parameters of [`EditMesh::convex_hull`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct HullSettings {
     /// Whether faces and edges among the vertices that are not the hull's go, and vertices that nothing uses then.

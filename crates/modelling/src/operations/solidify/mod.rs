@@ -4,6 +4,8 @@ mod shift;
 #[cfg(test)]
 mod tests;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use trigon_math::DVec3;
 
 use super::region::{BorderEdge, Region, SplitVertices};
@@ -13,7 +15,7 @@ use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
 /// Parameters of [`EditMesh::solidify_faces`].
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SolidifySettings {
     /// The distance between both layers, in metres; at least 0.

@@ -6,6 +6,8 @@ mod tests;
 
 use std::f64::consts::TAU;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use trigon_math::{DMat3, DVec3, elementary};
 
 use self::sweep::Sweep;
@@ -14,7 +16,7 @@ use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::refusal::Refusal;
 
 /// Parameters of [`EditMesh::spin`].
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SpinSettings {
     /// A point on the axis, in metres.

@@ -220,7 +220,7 @@ const OPERATIONS: [Operation; 48] = [
 fn boolean_with_a_copy(mesh: &mut EditMesh, on: &Chosen, operation: BooleanOperation) -> Result<(), Refusal> {
     let number = on.number as f64;
     let offset = DVec3::new((number / 3.0).floor() / 2.0 - 2.0, 0.5, 0.0);
-    let angle = if on.number % 3 == 0 { 0.0 } else { number };
+    let angle = if on.number.is_multiple_of(3) { 0.0 } else { number };
     let transform = DAffine3::from_translation(offset) * DAffine3::from_rotation_z(angle);
     let copy = mesh.clone();
     mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)

@@ -17,6 +17,8 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use trigon_math::DVec2;
 
 use self::charts::{UvChart, charts};
@@ -31,9 +33,7 @@ pub use self::islands::PackSettings;
 pub use self::smart::SmartProjection;
 
 /// How charts are laid flat.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum UnwrapMethod {
     /// Angles are preserved as well as possible, with a free border. Charts that would overlap are laid out as with
