@@ -54,6 +54,7 @@ mod tables;
 mod transform;
 mod triangulate;
 mod tris_to_quads;
+mod un_subdivide;
 mod unwrap;
 mod wireframe;
 
@@ -85,5 +86,6 @@ pub use symmetrize::Symmetrized;
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
 pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
+pub use un_subdivide::UnSubdivided;
 pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};
 pub use wireframe::WireframeSettings;
