@@ -134,7 +134,7 @@ fn operations() -> Vec<Operation> {
         ),
         operation("merge", Some("vertex", 3), |r, _| {
             let at = ["center", "first", "last", "collapse", "distance"][r.below(5)];
-            json!({ "at": at, "distance": 0.5 })
+            json!({ "at": at, "distance": 1.0 })
         }),
         operation("mark_sharp", Some("edge", 4), |_, at| json!({ "sharp": (!at.edge(EditMesh::is_sharp)) })),
         operation("mark_seam", Some("edge", 4), |_, at| json!({ "seam": (!at.edge(EditMesh::is_seam)) })),
@@ -189,8 +189,9 @@ fn operations() -> Vec<Operation> {
             Some("edge", 2),
             |r, _| json!({ "axis": (vector(r)), "angle": (90.0 * signed(r)), "steps": (1 + r.below(3)) }),
         ),
-        operation("decimate", Some("face", 30), |r, _| json!({ "ratio": (r.between(0.5, 1.0)) })),
-        operation("bisect", Some("face", 4), |r, _| {
+        operation("decimate", Some("face", 1000), |r, _| json!({ "ratio": (r.between(0.5, 0.9)) })),
+        operation("un_subdivide", Some("face", 1000), |_, _| json!({})),
+        operation("bisect", Some("face", 1000), |r, _| {
             let [clear_outer, clear_inner, fill] = [6, 6, 2].map(|times| r.below(times) == 0);
             json!({
                 "point": (vector(r).map(|x| 0.3 * x)), "normal": (vector(r)), "clear_outer": clear_outer,
@@ -369,6 +370,7 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
                 "triangulate" => Some(("edge", 1, "dissolve")),
                 "reveal" => Some(("face", 2, "hide")),
                 "reset_vertices" => Some(("vertex", 5, "to_sphere")),
+                "un_subdivide" => Some(("face", 1, "catmull_clark")),
                 // A loose edge.
                 "repair" => Some(("vertex", 1, "extrude")),
                 _ => None,

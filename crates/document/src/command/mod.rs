@@ -83,7 +83,7 @@ pub use separate::{Separate, SeparateBy};
 pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
 pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
-pub use solid::{Decimate, Solidify, Wireframe};
+pub use solid::{Decimate, Solidify, UnSubdivide, Wireframe};
 pub use space::TransformSpace;
 pub use spin::{Bisect, Spin};
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads};
@@ -259,6 +259,8 @@ commands! {
     TrisToQuads("Tris to Quads", false),
     /// Reduces the number of triangles.
     Decimate("Decimate", false),
+    /// Reverses a subdivision.
+    UnSubdivide("Un-Subdivide", false),
     /// Fills loops with faces.
     Fill("Fill", false),
     /// Fills a loop with a grid.

@@ -1,4 +1,4 @@
-//! Solidifying faces, making struts of their edges, and reducing triangles.
+//! Solidifying faces, making struts of their edges, and reducing their number.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -120,6 +120,24 @@ impl Action for Decimate {
     }
 }
 
+/// Reverses one subdivision of the selected quads: those around the middle of each former face become that face.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct UnSubdivide {}
+
+impl Action for UnSubdivide {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let mut removed = 0;
+        change.edit_selected("reversing a subdivision", FACES, |mesh, selection| {
+            let made = mesh.un_subdivide(&selection.faces(mesh, kind))?;
+            removed += made.removed;
+            Ok(AfterEdit::Select(Elements::Faces(made.faces)))
+        })?;
+        Ok(Outcome::counted("removed", removed, ["vertex", "vertices"]))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use serde_json::json;
@@ -145,6 +163,18 @@ mod tests {
         assert!(edited(&document).is_watertight() && edited(&document).face_count() == 72);
         document.undo().expect("one");
         assert_eq!(edited(&document).face_count(), 6);
+    }
+
+    #[test]
+    fn a_subdivided_cube_becomes_a_cube_again() {
+        let mut document = editing_faces(primitives::cube(2.0));
+        run(&mut document, json!({ "op": "subdivide" }));
+        run(&mut document, json!({ "op": "select_all" }));
+        let outcome = try_run(&mut document, json!({ "op": "un_subdivide" })).expect("possible");
+        assert_eq!((outcome.message.as_str(), edited(&document).face_count()), ("removed 18 vertices", 6));
+        let refused =
+            try_run(&mut document, json!({ "op": "un_subdivide" })).expect_err("a cube").to_string();
+        assert!(refused.contains("regular"), "{refused}");
     }
 
     #[test]

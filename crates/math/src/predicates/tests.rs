@@ -73,9 +73,9 @@ fn a_grid_of_neighbours_is_decided_exactly() {
             let a = DVec2::new(0.5 + f64::from(i) * unit, 0.5 + f64::from(j) * unit);
             // a is right of the diagonal if i > j; b to c runs up the diagonal.
             let expected = match i.cmp(&j) {
-                std::cmp::Ordering::Less => Orientation::CounterClockwise,
-                std::cmp::Ordering::Equal => Orientation::Collinear,
-                std::cmp::Ordering::Greater => Orientation::Clockwise,
+                Ordering::Less => Orientation::CounterClockwise,
+                Ordering::Equal => Orientation::Collinear,
+                Ordering::Greater => Orientation::Clockwise,
             };
             assert_eq!(orientation(a, b, c), expected.reversed().reversed(), "({i}, {j})");
             let rounded = (b - a).perp_dot(c - a);

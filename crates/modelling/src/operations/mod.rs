@@ -57,6 +57,7 @@ mod transform;
 mod transform_uvs;
 mod triangulate;
 mod tris_to_quads;
+mod un_subdivide;
 mod unwrap;
 mod uv_overlaps;
 mod wireframe;
@@ -92,5 +93,6 @@ pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transfo
 pub use transform_uvs::UvElements;
 pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
+pub use un_subdivide::UnSubdivided;
 pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};
 pub use wireframe::WireframeSettings;

@@ -99,6 +99,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
                     [bits as usize % 3];
             mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
         }
+        33 => mesh.un_subdivide(&faces).map(drop),
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }

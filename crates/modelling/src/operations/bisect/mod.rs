@@ -76,8 +76,8 @@ impl EditMesh {
     /// let faces: Vec<FaceId> = cube.faces().collect();
     /// let settings = BisectSettings { clear_outer: true, fill: true, ..BisectSettings::default() };
     /// let made = cube.bisect(&faces, DVec3::ZERO, DVec3::X, &settings)?;
-    /// assert_eq!((made.fill.len(), cube.volume()), (1, 4.0));
-    /// assert!(cube.is_watertight());
+    /// assert_eq!(made.fill.len(), 1);
+    /// assert!(cube.is_watertight() && (cube.volume() - 4.0).abs() < 1e-12);
     /// # Ok::<(), trigon_modelling::Refusal>(())
     /// ```
     pub fn bisect(

@@ -78,7 +78,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 48] = [
+const OPERATIONS: [Operation; 49] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -137,6 +137,12 @@ const OPERATIONS: [Operation; 48] = [
     operation("bisect, clear and fill", Promise::Nothing, |mesh, on| {
         let settings = BisectSettings { clear_outer: true, fill: true, ..Default::default() };
         mesh.bisect(&on.faces, DVec3::ZERO, DVec3::X, &settings).map(drop)
+    }),
+    operation("reverse a subdivision", Promise::Closed, |mesh, on| {
+        mesh.catmull_clark(1)?;
+        let faces: Vec<FaceId> = mesh.faces().collect();
+        let some = if on.number == 0 { faces.len() } else { faces.len() / 2 };
+        mesh.un_subdivide(&faces[..some]).map(drop)
     }),
     operation("wireframe", Promise::Nothing, |mesh, on| {
         mesh.wireframe_faces(&on.faces, &WireframeSettings::default()).map(drop)
