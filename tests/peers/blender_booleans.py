@@ -95,32 +95,47 @@ def random_map(random):
     return turn
 
 
+def copies():
+    """Maps under which much of a model lies on itself, nearly so, or beside itself."""
+    turn = trimesh.transformations.rotation_matrix
+    move = trimesh.transformations.translation_matrix
+    quarters = [turn(numpy.pi / 2, [0, 0, 1]), turn(numpy.pi, [0, 1, 0])]
+    small = [turn(angle, [1, 2, 3]) for angle in (1e-7, 1e-5, 1e-3)]
+    return quarters + small + [move([0.5, 0, 0]), move([2, 0, 0]), move([1e-6, 1e-6, 0])]
+
+
+def pairs_of(arguments, crossed):
+    """Numbers of two models, and the map of the second one."""
+    if arguments.copies:
+        models = [i for i, crosses in enumerate(crossed) if not crosses]
+        return [(i, i, matrix) for matrix in copies() for i in models]
+    random = numpy.random.default_rng(arguments.seed)
+    pick = lambda: random.integers(len(crossed), size=2)
+    return [(*pick(), random_map(random)) for _ in range(arguments.pairs)]
+
+
 def run(arguments):
     all_models = models(arguments.models, arguments.least, arguments.triangles)
     print(f"{len(all_models)} models, {sum(len(m.faces) for _, m in all_models)} triangles", file=sys.stderr)
-    random = numpy.random.default_rng(arguments.seed)
     program = subprocess.Popen([EXAMPLE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    crossed = [crosses_itself(mesh) for _, mesh in all_models]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        crossed = [crosses_itself(mesh) for _, mesh in all_models]
         for number, (_, mesh) in enumerate(all_models):
             write_obj(folder / f"{number}.obj", mesh)
-        for pair in range(arguments.pairs):
-            i, j = random.integers(len(all_models), size=2)
-            matrix = random_map(random)
+        for pair, (i, j, matrix) in enumerate(pairs_of(arguments, crossed)):
             columns = " ".join(repr(float(x)) for x in matrix[:3, :].T.flatten())
             program.stdin.write(f"{folder}/{i}.obj {folder}/{j}.obj {columns}\n")
             program.stdin.flush()
             ours = json.loads(program.stdout.readline())
             operation = OPERATIONS[pair % 3]
-            theirs = in_blender(all_models[i][1], all_models[j][1], matrix, operation) if arguments.blender else None
+            has_peer = arguments.blender and not arguments.copies
+            theirs = in_blender(all_models[i][1], all_models[j][1], matrix, operation) if has_peer else None
             names = [all_models[i][0], all_models[j][0]]
             sizes = [len(all_models[i][1].faces), len(all_models[j][1].faces)]
-            crosses = crossed[i] or crossed[j]
-            row = {"names": names, "triangles": sizes, "crosses": crosses, "operation": operation}
-            row |= {"trigon": ours, "blender": theirs}
-            rows.append(row)
+            row = {"names": names, "triangles": sizes, "crosses": crossed[i] or crossed[j]}
+            rows.append(row | {"operation": operation, "trigon": ours, "blender": theirs})
             print(pair, *names, *sizes, file=sys.stderr)
     program.stdin.close()
     return rows
@@ -180,6 +195,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--triangles", type=int, default=20_000)
     parser.add_argument("--least", type=int, default=20)
+    parser.add_argument("--copies", action="store_true", help="each model that does not cross itself with its own copies")
     parser.add_argument("--no-blender", dest="blender", action="store_false")
     parser.add_argument("--json", type=pathlib.Path)
     arguments = parser.parse_args()
