@@ -435,8 +435,8 @@ fn fields_for_numbers_take_units_and_sums_and_say_what_they_do_not_take() {
 fn a_key_without_a_command_says_so() {
     let mut worked = Worked::new();
     let key = |worked: &mut Worked, key| worked.key(WindowKey::Character(key), Modifiers::NONE);
-    assert_eq!(key(&mut worked, 'k'), Taken::No, "it is nobody's");
-    assert!(worked.refusal().starts_with('K') && worked.refusal().contains("F3"), "{}", worked.refusal());
+    assert_eq!(key(&mut worked, 'q'), Taken::No, "it is nobody's");
+    assert!(worked.refusal().starts_with('Q') && worked.refusal().contains("F3"), "{}", worked.refusal());
 }
 
 /// It was offered in edit mode only.
