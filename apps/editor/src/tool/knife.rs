@@ -1,7 +1,7 @@
 //! K: clicks on vertices, edges and faces draw a cut, which runs straight across the faces between them.
 
 use trigon_document::mesh::math::{DAffine3, DVec2, DVec3};
-use trigon_document::modelling::{EditMesh, FaceId, KnifePoint, SeenLine};
+use trigon_document::modelling::{EditMesh, FaceId, KnifePoint, ProjectedLine};
 use trigon_document::scene::MeshId;
 use trigon_document::scene::camera::{Projector, Ray};
 use trigon_document::{Document, Knife, ObjectName, PathPoint};
@@ -174,9 +174,11 @@ impl Surface<'_> {
     /// A vertex of a face near the pointer, or else a point of an edge, or else of the face.
     fn point_at(&self, face: FaceId, at: DVec2, in_middle: bool) -> Option<KnifePoint> {
         let radius = RADIUS * self.view.scale;
-        let seen = |vertex| self.view.screen(placed(self.mesh, vertex, &self.to_world));
-        let vertices =
-            self.mesh.face_vertices(face).filter_map(|vertex| Some((seen(vertex)?.distance(at), vertex)));
+        let on_screen = |vertex| self.view.screen(placed(self.mesh, vertex, &self.to_world));
+        let vertices = self
+            .mesh
+            .face_vertices(face)
+            .filter_map(|vertex| Some((on_screen(vertex)?.distance(at), vertex)));
         let vertex = vertices.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(distance, _)| *distance <= radius);
         if let (Some((_, vertex)), false) = (vertex, in_middle) {
             return Some(KnifePoint::Vertex(vertex));
@@ -241,15 +243,15 @@ struct ViewLine {
     to: DVec2,
 }
 
-impl SeenLine for ViewLine {
+impl ProjectedLine for ViewLine {
     fn side(&self, point: DVec3) -> f64 {
         self.normal.dot(self.to_world.transform_point3(point) - self.origin)
     }
 
     fn progress(&self, point: DVec3) -> f64 {
-        let seen = self.projector.to_screen(self.to_world.transform_point3(point));
+        let at = self.projector.to_screen(self.to_world.transform_point3(point));
         // What is behind the eye is not ahead.
-        seen.map_or(f64::NEG_INFINITY, |seen| (seen - self.from).dot(self.to - self.from))
+        at.map_or(f64::NEG_INFINITY, |at| (at - self.from).dot(self.to - self.from))
     }
 }
 

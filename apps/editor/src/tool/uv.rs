@@ -32,7 +32,7 @@ pub(crate) struct UvPixels {
 
 /// The only direction that coordinates move or scale in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Lock {
+enum UvAxis {
     Across,
     Down,
 }
@@ -43,7 +43,7 @@ pub(crate) struct UvTool {
     modal: Modal,
     kind: UvTransform,
     pixels: UvPixels,
-    lock: Option<Lock>,
+    lock: Option<UvAxis>,
     /// How far the pointer turned around the centre, in turns, and its last direction.
     turns: f64,
     direction: f64,
@@ -139,8 +139,8 @@ impl UvTool {
         let first = if typed[0].is_some() { all[0] } else { all[1] };
         match self.lock {
             None => all,
-            Some(Lock::Across) => [all[0], none],
-            Some(Lock::Down) => [none, first],
+            Some(UvAxis::Across) => [all[0], none],
+            Some(UvAxis::Down) => [none, first],
         }
     }
 
@@ -154,10 +154,10 @@ impl UvTool {
     }
 
     fn key(&mut self, key: char, document: &mut Document) -> ToolState {
-        let toggled = |lock: Lock| (self.lock != Some(lock)).then_some(lock);
+        let toggled = |lock: UvAxis| (self.lock != Some(lock)).then_some(lock);
         match key {
-            'x' => self.lock = toggled(Lock::Across),
-            'y' => self.lock = toggled(Lock::Down),
+            'x' => self.lock = toggled(UvAxis::Across),
+            'y' => self.lock = toggled(UvAxis::Down),
             'g' => self.become_kind(UvTransform::Move),
             'r' => self.become_kind(UvTransform::Rotate),
             's' => self.become_kind(UvTransform::Scale),
@@ -181,8 +181,8 @@ impl Tool for UvTool {
     fn status(&self) -> String {
         let lock = match self.lock {
             None => "",
-            Some(Lock::Across) => " along X",
-            Some(Lock::Down) => " along Y",
+            Some(UvAxis::Across) => " along X",
+            Some(UvAxis::Down) => " along Y",
         };
         let text = format!("{} {}{lock} X/Y: lock, Ctrl: steps", self.text, self.modal.typed());
         self.modal.status(text)

@@ -152,7 +152,7 @@ impl<'d> Drawn<'d> {
     }
 
     fn draw_lines(&self, painter: &Painter) {
-        let seen = painter.clip_rect();
+        let visible = painter.clip_rect();
         // What is selected is drawn over the rest.
         for selected in [false, true] {
             for corner in self.faces.iter().flat_map(|&face| self.mesh.face_corners(face)) {
@@ -164,7 +164,7 @@ impl<'d> Drawn<'d> {
                 };
                 let line = [self.at(corner), self.at(self.mesh.next_corner(corner))];
                 if is_selected == selected
-                    && seen.intersects(trigon_window::egui::Rect::from_two_pos(line[0], line[1]))
+                    && visible.intersects(trigon_window::egui::Rect::from_two_pos(line[0], line[1]))
                 {
                     let color = match (is_selected, self.mesh.is_seam(edge)) {
                         (true, _) => SELECTED,
@@ -181,12 +181,12 @@ impl<'d> Drawn<'d> {
     }
 
     fn draw_vertices(&self, painter: &Painter) {
-        let seen = painter.clip_rect();
+        let visible = painter.clip_rect();
         for corner in self.faces.iter().flat_map(|&face| self.mesh.face_corners(face)) {
             let vertex = self.mesh.corner_vertex(corner);
             let is_selected = self.selected_vertices[vertex.index() as usize];
             let at = self.at(corner);
-            if seen.contains(at) {
+            if visible.contains(at) {
                 painter.circle_filled(at, DOT, if is_selected { SELECTED } else { EDGE });
             }
         }

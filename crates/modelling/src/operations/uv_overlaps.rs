@@ -8,7 +8,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
 
 /// A part of a face in the image, counter-clockwise.
-struct Part {
+struct UvTriangle {
     face: FaceId,
     corners: [DVec2; 3],
     low: DVec2,
@@ -25,10 +25,10 @@ impl EditMesh {
         if uv_set >= self.uv_set_count() {
             return Vec::new();
         }
-        let mut parts: Vec<Part> = self.faces().flat_map(|face| self.uv_parts(uv_set, face)).collect();
+        let mut parts: Vec<UvTriangle> = self.faces().flat_map(|face| self.uv_parts(uv_set, face)).collect();
         parts.sort_by(|a, b| a.low.x.total_cmp(&b.low.x));
         let mut found = FixedBitSet::with_capacity(self.face_capacity());
-        let mut beside: Vec<Part> = Vec::new();
+        let mut beside: Vec<UvTriangle> = Vec::new();
         for part in parts {
             beside.retain(|other| other.high.x > part.low.x);
             for other in &beside {
@@ -43,7 +43,7 @@ impl EditMesh {
         found.ones().map(|index| FaceId(index as u32)).collect()
     }
 
-    fn uv_parts(&self, uv_set: usize, face: FaceId) -> Vec<Part> {
+    fn uv_parts(&self, uv_set: usize, face: FaceId) -> Vec<UvTriangle> {
         let uv = |corner| self.uv(uv_set, corner).expect("the set exists");
         let points: Vec<Vec3> = self.face_corners(face).map(|corner| uv(corner).extend(0.0)).collect();
         let part = |triangle: [u32; 3]| {
@@ -53,7 +53,7 @@ impl EditMesh {
                 Orientation::Clockwise => [a, c, b],
                 Orientation::Collinear => return None,
             };
-            Some(Part { face, corners, low: a.min(b).min(c), high: a.max(b).max(c) })
+            Some(UvTriangle { face, corners, low: a.min(b).min(c), high: a.max(b).max(c) })
         };
         triangulate_polygon(&points).into_iter().filter_map(part).collect()
     }

@@ -11,7 +11,7 @@ use super::super::form::NumberForm;
 use super::super::parameters::check_box;
 use super::super::row::{choice, color, number, positive, row, text};
 use super::super::unit::Unit;
-use super::ShownObject;
+use super::object::ShownObject;
 use super::preview::Preview;
 use super::slots::slots;
 use crate::panel::row::submit;

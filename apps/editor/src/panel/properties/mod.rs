@@ -3,20 +3,20 @@
 mod elements;
 mod material;
 mod modifiers;
+mod object;
 mod preview;
 mod slots;
 #[cfg(test)]
 mod tests;
 mod transform;
 
-use trigon_document::scene::{Node, NodeId};
-use trigon_document::{Document, ObjectName, RenameObject};
+use trigon_document::{ObjectName, RenameObject};
 use trigon_window::egui::{self, CollapsingHeader, Ui};
 
 use super::ShownDocument;
 use super::row::{row, text};
 use crate::request::Request;
-use crate::up::Up;
+use object::ShownObject;
 
 /// The state of the tab: the requested image.
 #[derive(Debug, Default)]
@@ -25,15 +25,6 @@ pub(crate) struct PropertiesState {
     /// Of the selected elements.
     elements: elements::Values,
     material: material::MaterialState,
-}
-
-/// The object whose properties are shown.
-#[derive(Clone, Copy)]
-struct ShownObject<'d> {
-    document: &'d Document,
-    id: NodeId,
-    node: &'d Node,
-    up: Up,
 }
 
 /// Shows it.

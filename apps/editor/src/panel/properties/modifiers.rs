@@ -7,7 +7,7 @@ use trigon_document::{
 };
 use trigon_window::egui::{Align, Button, Layout, Response, Ui};
 
-use super::ShownObject;
+use super::object::ShownObject;
 use crate::icon::Icon;
 use crate::panel::ShownDocument;
 use crate::panel::form::{self, KeyOrder};

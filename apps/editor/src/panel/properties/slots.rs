@@ -7,7 +7,7 @@ use trigon_document::{
 };
 use trigon_window::egui::{self, Align, Button, Color32, Layout, Sense, Ui};
 
-use super::ShownObject;
+use super::object::ShownObject;
 use crate::panel::row::{row, srgb};
 use crate::request::Request;
 

@@ -6,7 +6,7 @@ use trigon_document::{Document, LightShape, ObjectName, Rotation, SetLight, SetT
 use trigon_window::egui;
 use trigon_window::egui::Ui;
 
-use super::ShownObject;
+use super::object::ShownObject;
 use crate::panel::parameters::check_box;
 use crate::panel::row::{AXES, choice, color, hovered, number, plain, positive, row, submit, vector};
 use crate::panel::unit::Unit;

@@ -6,8 +6,8 @@ use super::KnifePoint;
 use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
 
-/// How a line is seen.
-pub trait SeenLine {
+/// A line in an image, as it lies over a surface.
+pub trait ProjectedLine {
     /// On which side of the line a point is: linear in space, and 0 on it.
     fn side(&self, point: DVec3) -> f64;
 
@@ -23,7 +23,11 @@ impl EditMesh {
     /// two: with them, a path for [`EditMesh::knife`]. `None` where the line leaves the surface, as at a border or
     /// where the surface turns away.
     #[must_use]
-    pub fn knife_line(&self, [from, to]: [KnifePoint; 2], line: &impl SeenLine) -> Option<Vec<KnifePoint>> {
+    pub fn knife_line(
+        &self,
+        [from, to]: [KnifePoint; 2],
+        line: &impl ProjectedLine,
+    ) -> Option<Vec<KnifePoint>> {
         let goal = self.faces_around(to);
         let (mut path, mut current) = (Vec::new(), from);
         let mut reached = line.progress(self.knife_position(from));
@@ -80,7 +84,7 @@ impl EditMesh {
     }
 
     /// Where the line meets the outline of a face: at vertices that are on it, and on edges between sides.
-    fn crossings(&self, face: FaceId, line: &impl SeenLine) -> impl Iterator<Item = KnifePoint> {
+    fn crossings(&self, face: FaceId, line: &impl ProjectedLine) -> impl Iterator<Item = KnifePoint> {
         self.face_edges(face).flat_map(|edge| {
             let [a, b] = self.edge_vertices(edge);
             let [from, to] = [a, b].map(|vertex| line.side(self.point(vertex)));
@@ -106,7 +110,7 @@ mod tests {
         to: DVec3,
     }
 
-    impl SeenLine for FromAbove {
+    impl ProjectedLine for FromAbove {
         fn side(&self, point: DVec3) -> f64 {
             (self.to - self.from).cross(point - self.from).y
         }

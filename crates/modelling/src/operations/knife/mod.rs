@@ -11,7 +11,7 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use crate::refusal::Refusal;
 use divide::Inside;
-pub use line::SeenLine;
+pub use line::ProjectedLine;
 use path::Stretch;
 use trigon_math::Vec3;
 
