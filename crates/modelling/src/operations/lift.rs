@@ -1,6 +1,7 @@
 //! Lifting faces off a mesh: walls connect the lifted faces to their old positions. Nothing moves
 //! yet, so walls have no area.
 
+use smallvec::SmallVec;
 use trigon_math::{DVec3, angle, area_vector, unit_or_zero};
 
 use super::region::{BorderEdge, Region, SplitVertex, SplitVertices};
@@ -35,6 +36,17 @@ pub(super) struct LiftedFaces {
     old: Vec<(VertexId, EdgeId)>,
     new_edges: Vec<EdgeId>,
     hinges: Vec<EdgeId>,
+}
+
+/// A corner of a face of a region.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RegionCorner {
+    /// Of its vertex, in the list of the region's vertices.
+    pub(super) index: usize,
+    /// The unit normal of its face.
+    pub(super) normal: DVec3,
+    /// The angle of the face there, in radians.
+    pub(super) angle: f64,
 }
 
 /// The unit normals of faces at a vertex, weighted by their angles there.
@@ -266,25 +278,40 @@ impl EditMesh {
         unit_or_zero(area_vector(self.face_vertices(face).map(|vertex| self.point(vertex))))
     }
 
-    /// For each vertex of a region the normals of the region's faces there.
-    pub(super) fn region_normals(&self, region: &Region, vertices: &[VertexId]) -> Vec<NormalSum> {
+    /// The corners of a region's faces, without those of faces that have no normal. All vertices of the region are listed.
+    pub(super) fn region_corners(
+        &self,
+        region: &Region,
+        vertices: &[VertexId],
+    ) -> impl Iterator<Item = RegionCorner> {
         let mut indices = IndexTable::new(self.vertex_capacity(), vertices.len());
         for (index, vertex) in (0..).zip(vertices) {
             indices.insert(vertex.0, index);
         }
-        let mut sums = vec![NormalSum::default(); vertices.len()];
-        for &face in &region.faces {
+        let of_face = move |face: FaceId| {
             let normal = self.unit_normal(face);
-            for corner in self.face_corners(face).filter(|_| normal != DVec3::ZERO) {
-                let point = |corner| self.point(self.corner_vertex(corner));
-                let here = point(corner);
-                let [back, ahead] = [self.previous_corner(corner), self.next_corner(corner)].map(point);
-                let index = indices.get(self.corner_vertex(corner).0);
-                let angle = angle(back - here, ahead - here);
-                let sum = &mut sums[index.expect("all are listed") as usize];
-                sum.sum += normal * angle;
-                sum.angle += angle;
-            }
+            let corners: SmallVec<[RegionCorner; 4]> = self
+                .face_corners(face)
+                .filter(|_| normal != DVec3::ZERO)
+                .map(|corner| {
+                    let point = |corner| self.point(self.corner_vertex(corner));
+                    let here = point(corner);
+                    let [back, ahead] = [self.previous_corner(corner), self.next_corner(corner)].map(point);
+                    let index = indices.get(self.corner_vertex(corner).0).expect("all are listed");
+                    RegionCorner { index: index as usize, normal, angle: angle(back - here, ahead - here) }
+                })
+                .collect();
+            corners
+        };
+        region.faces.iter().copied().flat_map(of_face)
+    }
+
+    /// For each vertex of a region the normals of the region's faces there.
+    pub(super) fn region_normals(&self, region: &Region, vertices: &[VertexId]) -> Vec<NormalSum> {
+        let mut sums = vec![NormalSum::default(); vertices.len()];
+        for RegionCorner { index, normal, angle } in self.region_corners(region, vertices) {
+            sums[index].sum += normal * angle;
+            sums[index].angle += angle;
         }
         sums
     }

@@ -5,7 +5,7 @@ use serde_json::json;
 use trigon_document::mesh::math::DVec3;
 use trigon_document::mesh::primitives;
 use trigon_document::scene::{Light, Material, Node, NodeId, Scene};
-use trigon_document::{Command, Crease, SetMaterial, SurfaceAlpha, TextureSlot, Translate};
+use trigon_document::{Command, Crease, Document, SetMaterial, SurfaceAlpha, TextureSlot, Translate};
 
 use super::super::testing::Case;
 use super::*;

@@ -1,12 +1,12 @@
 //! By which vector a vertex moves so that the planes of its faces move by 1 along their normals.
 
 use smallvec::SmallVec;
-use trigon_math::{DMat3, DVec3, angle, unit_or_zero};
+use trigon_math::{DMat3, DVec3, unit_or_zero};
 
 use crate::edit_mesh::EditMesh;
 use crate::ids::VertexId;
+use crate::operations::lift::RegionCorner;
 use crate::operations::region::Region;
-use crate::operations::tables::IndexTable;
 
 /// Almost folded faces would need endless vectors.
 const LONGEST: f64 = 20.0;
@@ -29,20 +29,9 @@ impl EditMesh {
         vertices: &[VertexId],
         even: bool,
     ) -> Vec<DVec3> {
-        let mut indices = IndexTable::new(self.vertex_capacity(), vertices.len());
-        for (index, vertex) in (0..).zip(vertices) {
-            indices.insert(vertex.0, index);
-        }
         let mut planes = vec![Planes::new(); vertices.len()];
-        for &face in &region.faces {
-            let normal = self.unit_normal(face);
-            for corner in self.face_corners(face).filter(|_| normal != DVec3::ZERO) {
-                let point = |corner| self.point(self.corner_vertex(corner));
-                let here = point(corner);
-                let [back, ahead] = [self.previous_corner(corner), self.next_corner(corner)].map(point);
-                let index = indices.get(self.corner_vertex(corner).0).expect("all are listed");
-                add(&mut planes[index as usize], normal, angle(back - here, ahead - here));
-            }
+        for RegionCorner { index, normal, angle } in self.region_corners(region, vertices) {
+            add(&mut planes[index], normal, angle);
         }
         planes.iter().map(|planes| if even { even_shift(planes) } else { mean(planes) }).collect()
     }

@@ -135,7 +135,7 @@ fn what_another_drawer_shows_is_picked_all_the_same() {
 fn a_view_in_a_part_of_the_window_shows_and_picks_the_scene_there() {
     let mut handler = Recorder::default();
     let mut session = begun(&mut handler);
-    let size = trigon_camera::Viewport { width: SIZE.width / 2, height: SIZE.height - 20 };
+    let size = Viewport { width: SIZE.width / 2, height: SIZE.height - 20 };
     session.stage.view_area = Some(crate::Area { min: [15, 10], size });
     session.note(ms(1000));
     run(&mut session, ms(1000));
@@ -147,7 +147,7 @@ fn a_view_in_a_part_of_the_window_shows_and_picks_the_scene_there() {
     let seen = projector.to_screen(point).expect("before the eye") + pane.area.origin();
     assert!(seen.distance(at) < 1e-3, "{at} and {seen}");
     assert_eq!(name, "right");
-    let beside = trigon_math::DVec2::new(12.0, at.y);
+    let beside = DVec2::new(12.0, at.y);
     assert_eq!(session.stage.pick(beside), None, "a panel is there");
 }
 
