@@ -22,6 +22,8 @@ pub(super) enum Form<'s> {
     Text,
     /// One of some names, each with what it means.
     Choice(Vec<(&'s str, &'s str)>),
+    /// True or false for each of the three axes.
+    Axes,
     /// So many numbers.
     Vector(usize, NumberForm),
     /// One of several groups of parameters; the key decides which.
@@ -137,6 +139,7 @@ fn simple(schema: &'static Value, name: &str, unit: Unit) -> Form<'static> {
         "string" => Form::Text,
         "object" => Form::Group(schema),
         "array" => match (schema["maxItems"].as_u64(), form(&schema["items"], unit)) {
+            (Some(3), Form::Switch) => Form::Axes,
             (Some(count), Form::Number(number)) => Form::Vector(count as usize, number),
             _ => Form::ReadOnly,
         },
@@ -189,6 +192,7 @@ pub(super) fn initial(form: &Form<'static>) -> Value {
     match form {
         Form::Number(number) => number_value(0.0, number),
         Form::Switch => false.into(),
+        Form::Axes => vec![false; 3].into(),
         Form::Text => "".into(),
         Form::Choice(names) => names.first().map_or(Value::Null, |&(name, _)| name.into()),
         Form::Vector(count, number) => vec![number_value(0.0, number); *count].into(),

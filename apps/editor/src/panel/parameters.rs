@@ -10,6 +10,7 @@ use super::form::{self, Form, NumberForm, Variant};
 use super::row::{AXES, CHANNELS, hovered, number, row, text, vector};
 use super::spatial::Spatial;
 use super::unit::Unit;
+use crate::up::Up;
 
 /// Shows the parameters of a group in their order. Tells whether one was changed.
 pub(super) fn group(
@@ -74,6 +75,7 @@ impl Parameter<'_> {
         match form {
             Form::Number(number) => show_number(ui, &label, hover, value, number),
             Form::Switch => show_switch(ui, &label, hover, value),
+            Form::Axes => show_axes(ui, &label, hover, value, self.shown.up),
             Form::Text if self.name == "object" => self.show_object(ui, &label, hover, value),
             Form::Text => show_text(ui, &label, hover, value),
             Form::Choice(names) => show_choice(ui, &label, hover, value, names),
@@ -229,6 +231,26 @@ fn show_switch(ui: &mut Ui, label: &str, hover: &str, value: &mut Value) -> bool
     if is_changed {
         *value = is_on.into();
     }
+    is_changed
+}
+
+/// A switch for each axis, in the order in which they are shown.
+fn show_axes(ui: &mut Ui, label: &str, hover: &str, value: &mut Value, up: Up) -> bool {
+    let mut is_changed = false;
+    row(ui, label, hover, |ui, _| {
+        let shown = ui.horizontal(|ui| {
+            for axis in [0, 1, 2].map(|axis| up.shown_axis(axis)) {
+                let is_on = value[axis].as_bool().unwrap_or_default();
+                let name = AXES[up.shown_axis(axis)];
+                let switch = ui.selectable_label(is_on, name).accessible_name(format!("{label} {name}"));
+                if switch.clicked() {
+                    value[axis] = (!is_on).into();
+                    is_changed = true;
+                }
+            }
+        });
+        shown.response
+    });
     is_changed
 }
 

@@ -5,7 +5,7 @@ use trigon_document::{
     AddModifier, ApplyModifier, Command, Modifier, MoveModifier, ObjectName, RemoveModifier, SetModifier,
     ShowModifier,
 };
-use trigon_window::egui::{Align, Button, Layout, Response, Ui};
+use trigon_window::egui::{Button, Response, Ui};
 
 use super::object::ShownObject;
 use crate::icon::Icon;
@@ -58,25 +58,23 @@ fn header(
         if switch.on_hover_text("Switches the modifier on or off").clicked() {
             chosen = Some(ShowModifier { object: object.clone(), index: at, on: !stacked.is_on }.into());
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let named = |response: Response, what: &str| response.accessible_name(format!("{what} {name}"));
-            if named(ui.small_button("Remove"), "Remove").clicked() {
-                chosen = Some(RemoveModifier { object: object.clone(), index: at }.into());
-            }
-            let apply = named(ui.small_button("Apply"), "Apply");
-            if apply.on_hover_text("Changes the mesh as the modifier says, and removes it").clicked() {
-                chosen = Some(ApplyModifier { object: object.clone(), index: at }.into());
-            }
-            let moved = |to: u32| MoveModifier { object: object.clone(), index: at, to }.into();
-            let down = ui.add_enabled(index + 1 < count, Button::new("Down").small());
-            if named(down, "Move down").clicked() {
-                chosen = Some(moved(at + 1));
-            }
-            let up = ui.add_enabled(index > 0, Button::new("Up").small());
-            if named(up, "Move up").clicked() {
-                chosen = Some(moved(at - 1));
-            }
-        });
+        let named = |response: Response, what: &str| response.accessible_name(format!("{what} {name}"));
+        let moved = |to: u32| MoveModifier { object: object.clone(), index: at, to }.into();
+        let up = ui.add_enabled(index > 0, Button::new("Up").small());
+        if named(up, "Move up").clicked() {
+            chosen = Some(moved(at - 1));
+        }
+        let down = ui.add_enabled(index + 1 < count, Button::new("Down").small());
+        if named(down, "Move down").clicked() {
+            chosen = Some(moved(at + 1));
+        }
+        let apply = named(ui.small_button("Apply"), "Apply");
+        if apply.on_hover_text("Changes the mesh as the modifier says, and removes it").clicked() {
+            chosen = Some(ApplyModifier { object: object.clone(), index: at }.into());
+        }
+        if named(ui.small_button("Remove"), "Remove").clicked() {
+            chosen = Some(RemoveModifier { object: object.clone(), index: at }.into());
+        }
     });
     chosen
 }

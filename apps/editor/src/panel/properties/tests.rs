@@ -275,11 +275,15 @@ fn modifiers_are_added_switched_moved_and_removed_in_the_panel() {
     }
     assert_eq!(names(&mut case), [("Mirror", true), ("Array", true)]);
     case.image("modifiers");
+    case.click("Axes Y");
     case.type_number("Count", "5");
+    let mesh = case.document().nodes().node(cube).and_then(|node| node.mesh).expect("the cube's");
+    let mirror = &case.document().mesh(mesh).expect("it has modifiers").modifiers()[0].modifier;
+    let trigon_document::Modifier::Mirror(mirror) = mirror else { panic!("{mirror:?}") };
+    assert_eq!(mirror.axes, [true, true, false], "and y");
     case.click("Mirror");
     case.click("Move down Mirror");
     assert_eq!(names(&mut case), [("Array", true), ("Mirror", false)]);
-    let mesh = case.document().nodes().node(cube).and_then(|node| node.mesh).expect("the cube's");
     let array = &case.document().mesh(mesh).expect("it has modifiers").modifiers()[0].modifier;
     let trigon_document::Modifier::Array(array) = array else { panic!("{array:?}") };
     assert_eq!(array.count, 5, "what was typed");
