@@ -103,7 +103,11 @@ impl KnifeTool {
             path.pop();
         }
         if path.len() < 2 {
-            return self.modal.refuse("a cut goes from edge to edge: click at least two points");
+            let text = match self.points.len() {
+                0 | 1 => "a cut goes from edge to edge: click at least two points",
+                _ => "a cut begins and ends on edges or at vertices: click on one at each end",
+            };
+            return self.modal.refuse(text);
         }
         let nodes = document.nodes().nodes();
         let object = nodes.iter().find(|(_, node)| node.mesh == self.mesh).map(|(object, _)| object);
@@ -277,7 +281,7 @@ impl Tool for KnifeTool {
 
     fn status(&self) -> String {
         let text = format!(
-            "Knife: {} points, click: add, Shift: middle of an edge, Backspace: take back, Enter: cut",
+            "Knife, points: {}. Click: add, Shift: middle of an edge, Backspace: take back, Enter: cut",
             self.points.len()
         );
         self.modal.explained(text)

@@ -10,8 +10,7 @@ mod picking;
 mod shapes;
 
 use trigon_document::mesh::math::DVec2;
-use trigon_document::modelling::UvElements;
-use trigon_document::{Document, ElementKind};
+use trigon_document::{Document, selected_uv_corners};
 use trigon_window::egui::{Painter, Pos2};
 
 pub(crate) use backdrop::Backdrop;
@@ -76,13 +75,7 @@ pub(crate) fn bounds(document: &Document) -> Option<[DVec2; 2]> {
     let (mut selected, mut all) = (Vec::new(), Vec::new());
     for (id, mesh) in meshes(document) {
         let Some(selection) = document.selection().of(id) else { continue };
-        let corners = match kind {
-            ElementKind::Vertex => {
-                mesh.uv_corners(UV_SET, UvElements::Vertices(&selection.vertices(mesh, kind)))
-            }
-            ElementKind::Edge => mesh.uv_corners(UV_SET, UvElements::Edges(&selection.edges(mesh, kind))),
-            ElementKind::Face => mesh.uv_corners(UV_SET, UvElements::Faces(&selection.faces(mesh, kind))),
-        };
+        let corners = selected_uv_corners(mesh, selection, kind, UV_SET);
         selected.extend(corners.into_iter().map(|corner| picking::uv(mesh, corner)));
         all.extend(mesh.corners().map(|corner| picking::uv(mesh, corner)));
     }

@@ -210,7 +210,11 @@ impl Editor {
             Ok(outcome) => {
                 self.file.ran(selects);
                 let text = said(name, &outcome.message);
-                self.message = if selects { Message::Hint(text) } else { Message::Info(text) };
+                self.message = match &outcome.warnings[..] {
+                    [] if selects => Message::Hint(text),
+                    [] => Message::Info(text),
+                    warnings => Message::Refusal(format!("{text}. {}", warnings.join(". "))),
+                };
             }
             Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
         }

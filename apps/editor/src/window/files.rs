@@ -324,6 +324,11 @@ impl Editor {
     }
 
     fn export(&mut self, path: &Path) {
+        let exchange = &self.dialog.exchange;
+        if exchange.export.selection_only && exchange.extents.selected.is_none() {
+            let text = "Export: nothing with faces is selected; select objects, or switch off Selection only";
+            return self.message = Message::Refusal(text.into());
+        }
         let options = self.dialog.exchange.export.options(&self.document);
         let written = export::format_by_ending(path)
             .and_then(|format| export::write_as(&self.document, format, path, &options));

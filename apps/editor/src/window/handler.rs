@@ -183,6 +183,9 @@ impl Editor {
             }
             return Taken::No;
         };
+        if self.refuses_over_uvs(stage, action) {
+            return Taken::Yes;
+        }
         self.choose(stage, action);
         if let Some(tool) = &mut self.tool {
             tool.follow_at_once();

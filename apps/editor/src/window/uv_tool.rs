@@ -4,7 +4,8 @@ use trigon_document::SelectAction;
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Hands, Pane, Stage};
 
-use super::editor::Editor;
+use super::actions::Action;
+use super::editor::{Editor, Message};
 use super::panes::{in_pane, point, points};
 use crate::request::{ToolKind, ViewRequest};
 use crate::tool::{Tool, UvPixels, UvTool, UvTransform};
@@ -39,6 +40,20 @@ impl Editor {
         let center = DVec2::new(at.x.into(), at.y.into()) * scale - pane.area.origin();
         let pixels = UvPixels { center, side: canvas.side * scale };
         Some(Box::new(UvTool::start(transform, pixels, in_pane(hands, pane))))
+    }
+
+    /// Whether a key over the UV view would change the mesh, which is not what is meant there; says so.
+    pub(super) fn refuses_over_uvs(&mut self, stage: &Stage, action: &Action) -> bool {
+        let gestures = ["select.box", "select.circle", "select.lasso"].contains(&action.name);
+        if self.uv_canvas(stage).is_none() || !(gestures || action.menu.starts_with("Mesh")) {
+            return false;
+        }
+        let remedy = match gestures {
+            true => "drag with the left button here",
+            false => "it is for the mesh: point at the 3D view",
+        };
+        self.message = Message::Refusal(format!("{}: {remedy}", action.label));
+        true
     }
 
     /// Adds the island under the pointer to the selection. Returns whether the pointer is over the UV view.

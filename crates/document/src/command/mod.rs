@@ -60,7 +60,7 @@ pub use modifier::{
     AddModifier, ApplyModifier, ApplySubdivision, MoveModifier, RemoveModifier, SetModifier, SetSubdivision,
     ShowModifier,
 };
-pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs};
+pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs, selected_uv_corners};
 pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use poke::{ConvexHull, Poke};

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{DAffine2, DMat2, DVec2, elementary};
-use trigon_modelling::{EditMesh, FaceId, QuadLength, UvElements};
+use trigon_modelling::{CornerId, EditMesh, FaceId, QuadLength, UvElements};
 
 use super::{Action, Outcome};
 use crate::error::EditError;
@@ -14,7 +14,8 @@ use crate::state::{AfterEdit, Change};
 
 const SOMETHING: &str = "at least one selected element";
 
-/// Moves the texture coordinates of the selected elements, and of corners that share them.
+/// Moves the texture coordinates of the selected elements, and of corners that share them: of whole faces if all their
+/// vertices or edges are selected, or else of each selected vertex or edge.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TranslateUvs {
@@ -98,7 +99,7 @@ fn transform(
     let (uv_set, kind) = (uv_set as usize, change.selection().kind());
     let map = map(selected_uv_center(change, uv_set));
     change.edit_selected(command, SOMETHING, |mesh, selection| {
-        let corners = selected_corners(mesh, selection, kind, uv_set);
+        let corners = selected_uv_corners(mesh, selection, kind, uv_set);
         mesh.transform_uvs(uv_set, &corners, &map)?;
         Ok(AfterEdit::Keep)
     })?;
@@ -111,7 +112,7 @@ fn selected_uv_center(change: &Change<'_>, uv_set: usize) -> DVec2 {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for (id, selected) in selection.meshes() {
         let Some(mesh) = change.state().mesh(id) else { continue };
-        for corner in selected_corners(mesh, selected, kind, uv_set) {
+        for corner in selected_uv_corners(mesh, selected, kind, uv_set) {
             let uv = mesh.uv(uv_set, corner).unwrap_or_default().as_dvec2();
             (low, high) = (low.min(uv), high.max(uv));
         }
@@ -119,16 +120,23 @@ fn selected_uv_center(change: &Change<'_>, uv_set: usize) -> DVec2 {
     if low.x <= high.x { (low + high) / 2.0 } else { DVec2::ZERO }
 }
 
-fn selected_corners(
+/// The corners of a mesh whose texture coordinates go with the selection of a kind: those of whole faces if all their
+/// vertices or edges are selected, or else of each vertex or edge; and corners that share coordinates with them.
+#[must_use]
+pub fn selected_uv_corners(
     mesh: &EditMesh,
     selection: &MeshSelection,
     kind: ElementKind,
     uv_set: usize,
-) -> Vec<trigon_modelling::CornerId> {
+) -> Vec<CornerId> {
+    // An island that is selected as a whole leaves others, with which it shares vertices, where they are.
+    let faces = selection.faces(mesh, kind);
+    if kind == ElementKind::Face || !faces.is_empty() {
+        return mesh.uv_corners(uv_set, UvElements::Faces(&faces));
+    }
     match kind {
-        ElementKind::Vertex => mesh.uv_corners(uv_set, UvElements::Vertices(&selection.vertices(mesh, kind))),
         ElementKind::Edge => mesh.uv_corners(uv_set, UvElements::Edges(&selection.edges(mesh, kind))),
-        ElementKind::Face => mesh.uv_corners(uv_set, UvElements::Faces(&selection.faces(mesh, kind))),
+        _ => mesh.uv_corners(uv_set, UvElements::Vertices(&selection.vertices(mesh, kind))),
     }
 }
 

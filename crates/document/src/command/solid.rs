@@ -80,6 +80,10 @@ impl Action for Wireframe {
     }
 }
 
+/// Why there are more triangles than were asked for.
+const HELD: &str = "more are left than were asked for: borders, marks and ends of texture coordinates hold them; \
+                    without hold_values those of texture coordinates and colours do not";
+
 /// Reduces the number of triangles of the selected faces, with as little change of the surface as possible. Other faces are
 /// cut into triangles first. Borders, seams, sharp edges and the borders of materials hold.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -96,27 +100,35 @@ pub struct Decimate {
     /// that it stands for.
     #[schemars(range(min = 0.0))]
     pub error: f64,
+    /// Whether borders of texture coordinates and colours hold. Without it corners keep their values where their vertices
+    /// move.
+    pub hold_values: bool,
 }
 
 impl Default for Decimate {
     fn default() -> Self {
-        let DecimateSettings { goal, ratio, faces, error } = DecimateSettings::default();
-        Self { goal, ratio, faces, error }
+        let DecimateSettings { goal, ratio, faces, error, hold_values } = DecimateSettings::default();
+        Self { goal, ratio, faces, error, hold_values }
     }
 }
 
 impl Action for Decimate {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let &Self { goal, ratio, faces, error } = self;
-        let settings = DecimateSettings { goal, ratio, faces, error };
+        let &Self { goal, ratio, faces, error, hold_values } = self;
+        let settings = DecimateSettings { goal, ratio, faces, error, hold_values };
         let kind = change.selection().kind();
-        let mut removed = 0;
+        let (mut removed, mut is_held) = (0, false);
         change.edit_selected("decimating", FACES, |mesh, selection| {
             let made = mesh.decimate(&selection.faces(mesh, kind), &settings)?;
             removed += made.removed;
+            is_held |= made.is_held;
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
-        Ok(Outcome::counted("removed", removed, ["triangle", "triangles"]))
+        let mut outcome = Outcome::counted("removed", removed, ["triangle", "triangles"]);
+        if is_held {
+            outcome.warnings.push(HELD.into());
+        }
+        Ok(outcome)
     }
 }
 

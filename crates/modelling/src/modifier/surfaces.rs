@@ -121,6 +121,9 @@ pub struct DecimateModifier {
     /// How many triangles to leave, in parts of all.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub ratio: f64,
+    /// Whether borders of texture coordinates and colours hold. Without it corners keep their values where their vertices
+    /// move.
+    pub hold_values: bool,
 }
 
 impl DecimateModifier {
@@ -131,6 +134,6 @@ impl DecimateModifier {
 
 impl Default for DecimateModifier {
     fn default() -> Self {
-        Self { ratio: 0.5 }
+        Self { ratio: 0.5, hold_values: true }
     }
 }

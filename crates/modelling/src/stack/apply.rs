@@ -176,7 +176,12 @@ impl EditMesh {
 
     fn modify_by_decimate(&mut self, settings: &DecimateModifier) -> Result<(), Refusal> {
         let goal = DecimateGoal::Ratio;
-        let of_operation = DecimateSettings { goal, ratio: settings.ratio, ..DecimateSettings::default() };
+        let of_operation = DecimateSettings {
+            goal,
+            ratio: settings.ratio,
+            hold_values: settings.hold_values,
+            ..DecimateSettings::default()
+        };
         let faces: Vec<FaceId> = self.faces().collect();
         if faces.is_empty() { Ok(()) } else { self.decimate(&faces, &of_operation).map(drop) }
     }

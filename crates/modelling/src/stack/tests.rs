@@ -269,7 +269,8 @@ pub(crate) fn stacked() -> impl Strategy<Value = StackedModifier> {
         (0.0..0.5f64, -1.0..=1.0f64, any::<[bool; 2]>()).prop_map(|(thickness, offset, [even, rim])| {
             SolidifyModifier { thickness, offset, even, rim, ..SolidifyModifier::default() }.into()
         });
-    let decimate = (0.0..=1.0f64).prop_map(|ratio| DecimateModifier { ratio }.into());
+    let decimate =
+        (0.0..=1.0f64).prop_map(|ratio| DecimateModifier { ratio, ..DecimateModifier::default() }.into());
     let screw =
         (-360.0..360.0f64, 1u32..5, 0.0..1.0f64, 1u32..3).prop_map(|(angle, steps, height, turns)| {
             ScrewModifier { angle, steps, height, turns, ..ScrewModifier::default() }.into()

@@ -40,9 +40,11 @@ impl Line<'_> {
             ui.add_space(INDENT * row.depth.min(DEEPEST) as f32);
             self.fold(ui, state);
             let kind = Kind::of(node);
-            let (icon, response) = ui.allocate_exact_size(ICON_SIZE, Sense::hover());
+            let (icon, response) = ui.allocate_exact_size(ICON_SIZE, Sense::click());
             kind.icon().paint(ui.painter(), icon, ui.visuals().text_color());
-            response.on_hover_text(kind.name());
+            let what = format!("{} {}", kind.name(), node.name);
+            response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &what));
+            self.clicked(ui, &response.on_hover_text(kind.name()), state, requests);
             let eye = ui.spacing().interact_size.y;
             let width = (ui.available_width() - eye - 4.0).max(eye);
             if state.renaming.as_ref().is_some_and(|renaming| renaming.object == row.id) {

@@ -8,7 +8,7 @@ use trigon_document::scene::NodeId;
 use trigon_io::{Format, UpAxis, writers};
 use trigon_window::egui;
 use trigon_window::egui::{ComboBox, Ui};
-use trigon_window::scene::math::{Bounds3, DVec3};
+use trigon_window::scene::math::{Bounds3, DMat3, DVec3};
 
 use crate::arguments::Arguments;
 use crate::export::{ExportChoices, format_by_ending};
@@ -35,7 +35,7 @@ impl Extents {
     /// Of the visible objects: all of them, and those that are selected with what hangs on them.
     pub(crate) fn of(document: &mut Document) -> Self {
         let selected: Vec<NodeId> = document.selection().objects.iter().copied().collect();
-        let scene = document.scene();
+        let scene = document.scene_to_render();
         let size = |bounds: Bounds3| (!bounds.is_empty()).then(|| bounds.size());
         let of_selected = selected.into_iter().flat_map(|id| scene.visible_points_below(id));
         Self {
@@ -95,13 +95,21 @@ impl Exchange {
         let Extents { all, selected } = self.extents;
         let extent = if self.export.selection_only { selected } else { all };
         let Some(size) = extent.map(|extent| extent * self.export.scale) else { return };
-        let [x, y, z] = size.to_array().map(written);
+        let up = self.export.up.unwrap_or_else(|| format.up());
+        let [x, y, z] = size_along(size, up).map(written);
         let unit = unit_name(self.export.scale);
         ui.label(format!("Size in the file: {x} × {y} × {z} ({unit})"));
         if format == Format::Stl {
             ui.weak("STL has no unit. Programs for printing take its numbers as millimetres.");
         }
     }
+}
+
+/// A size in a document, in which +Y is up, along the axes of a file.
+fn size_along(size: DVec3, up: UpAxis) -> [f64; 3] {
+    let frame = up.frame();
+    let along = DMat3::from_cols(frame.x_axis.abs(), frame.y_axis.abs(), frame.z_axis.abs()) * size;
+    along.to_array()
 }
 
 fn unit_name(scale: f64) -> String {
@@ -162,4 +170,27 @@ fn unit_list(ui: &mut Ui, scale: &mut f64) {
             ui.selectable_value(scale, units, name);
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The size had the axes of the document, and modifiers were left out.
+    #[test]
+    fn sizes_are_along_the_axes_of_the_file_and_after_modifiers() {
+        assert_eq!(size_along(DVec3::new(1.0, 2.0, 3.0), UpAxis::Z), [1.0, 3.0, 2.0]);
+        assert_eq!(size_along(DVec3::new(1.0, 2.0, 3.0), UpAxis::Y), [1.0, 2.0, 3.0]);
+        let commands = [
+            r#"{ "op": "add_object", "object": { "shape": "cube", "edge": 2 } }"#,
+            r#"{ "op": "add_modifier", "modifier": { "kind": "array", "count": 3, "relative_offset": [1, 0, 0] } }"#,
+        ];
+        let mut document = Document::default();
+        for command in commands {
+            document.run(serde_json::from_str(command).expect("a command")).expect("it can be done");
+        }
+        let Extents { all, selected } = Extents::of(&mut document);
+        assert_eq!(all, Some(DVec3::new(6.0, 2.0, 2.0)), "three cubes");
+        assert_eq!(selected, all, "the new object is selected");
+    }
 }

@@ -301,7 +301,9 @@ impl FileWindow {
         let mut typed = field.desired_width(f32::INFINITY).show(ui);
         let response = &typed.response;
         response.ctx.accesskit_node_builder(response.id, |node| node.set_label("path of a file"));
-        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        // In a list that is open Enter is for that.
+        let is_free = !Popup::is_any_open(ui.ctx());
+        let entered = is_free && response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if !entered && ui.memory(|memory| memory.focused().is_none()) {
             response.request_focus();
         }

@@ -128,6 +128,22 @@ fn islands_are_picked_and_moved_in_the_uv_view_by_the_keys_of_the_3d_view() {
         user.play("keys L\nsee 1 of 6 faces selected\nkeys R 9 0 Enter");
         assert!(middles(user)[4].abs_diff_eq(moved[4], 1e-6), "it turns around its middle");
         user.play("keys S X 0 Enter Ctrl+Z Ctrl+Z Ctrl+Z");
+        user.play("keys 1 Alt+A");
+        let (before, at) = (middles(user), seen(user, middles(user)[1]));
+        user.window.move_to(at);
+        user.play("keys L\nsee 4 of 8 vertices selected\nkeys G . 5 Tab 0 Enter");
+        let moved = middles(user);
+        for face in 0..6 {
+            let by = if face == 1 { Vec2::new(0.5, 0.0) } else { Vec2::ZERO };
+            assert!(
+                (moved[face] - before[face]).abs_diff_eq(by, 1e-6),
+                "face {face}: the other islands stay"
+            );
+        }
+        user.play("keys Ctrl+Z E");
+        let message = user.editor.borrow().message.clone();
+        assert!(matches!(&message, Message::Refusal(text) if text.contains("3D view")), "{message:?}");
+        user.play("keys 3");
         // A box around everything.
         let (from, to) = (seen(user, Vec2::splat(-0.05)), seen(user, Vec2::splat(1.05)));
         user.window.move_to(from);

@@ -48,12 +48,15 @@ pub struct DecimateSettings {
     /// For an error: the largest distance of a new vertex from the planes of the triangles that it stands for, in metres: the
     /// root of the mean square, by area.
     pub error: f64,
+    /// Whether borders of texture coordinates and colours hold. Without it corners keep their values where their vertices
+    /// move.
+    pub hold_values: bool,
 }
 
 impl Default for DecimateSettings {
     /// Half of the triangles.
     fn default() -> Self {
-        Self { goal: DecimateGoal::default(), ratio: 0.5, faces: 1000, error: 0.001 }
+        Self { goal: DecimateGoal::default(), ratio: 0.5, faces: 1000, error: 0.001, hold_values: true }
     }
 }
 
@@ -65,6 +68,8 @@ pub struct Decimated {
     pub faces: Vec<FaceId>,
     /// How many triangles were removed.
     pub removed: usize,
+    /// Whether more triangles are left than a ratio or a number says, as features hold them.
+    pub is_held: bool,
     /// The largest error of a collapse, in metres, as for [`DecimateSettings::error`].
     pub error: f64,
 }
@@ -101,7 +106,8 @@ impl EditMesh {
     /// Features are borders, edges that are sharp, creased or seams, and those where material, shading, texture coordinates
     /// or colours end. They only collapse along themselves, and vertices where they end or branch stay, as do those of other
     /// faces and of loose edges. No triangle turns by more than about 78° in a step, a closed surface stays closed, and
-    /// nothing that is manifold becomes non-manifold; so more triangles may be left than were asked for. Vertices and faces
+    /// nothing that is manifold becomes non-manifold; so more triangles may be left than were asked for. Borders of values
+    /// that hold vertices never make others go that the shape needs. Vertices and faces
     /// that are left keep their ids. Values are interpolated along collapsed edges; normals that were given are interpolated,
     /// too, but cleared where the corners of a collapsed vertex had different ones.
     ///
@@ -125,9 +131,23 @@ impl EditMesh {
         let triangles = self.triangulate_faces(faces)?.faces;
         let region = Region::new(self, &triangles, "decimating")?;
         let goal = settings.goal(region.faces.len());
-        let mut surface = Surface::of(self, &region);
-        let error = reduce(self, &mut surface, goal);
+        let mut surface = Surface::of(self, &region, settings.hold_values);
+        let limit = if surface.has_value_borders { self.error_of_shape(&region, goal) } else { goal.error };
+        let error = reduce(self, &mut surface, Goal { error: limit.min(goal.error), ..goal });
         let faces = self.rebuild(&region, &surface);
-        Ok(Decimated { removed: region.faces.len() - faces.len(), faces, error: error.sqrt() })
+        let is_held = settings.goal != DecimateGoal::Error && faces.len() > goal.triangles;
+        Ok(Decimated { removed: region.faces.len() - faces.len(), faces, is_held, error: error.sqrt() })
+    }
+
+    /// The greatest error that is allowed for the sake of values: a few times the one with which the shape alone would
+    /// reach the goal. Where values hold what could go at no error, nothing else goes in its place.
+    fn error_of_shape(&self, region: &Region, goal: Goal) -> f64 {
+        /// Of the square of a length.
+        const TIMES: f64 = 4.0;
+        /// Of the extent: less is not visible.
+        const LEAST: f64 = 1e-4;
+        let mut shape = Surface::of(self, region, false);
+        let extent = self.bounds_of(shape.vertices.iter().copied()).size().max_element();
+        (TIMES * reduce(self, &mut shape, goal)).max((LEAST * extent).powi(2))
     }
 }

@@ -63,6 +63,8 @@ pub(super) struct Surface {
     /// Merged vertices, in order.
     pub(super) merges: Vec<Merge>,
     pub(super) values: Wedges,
+    /// Whether some edges are features for their values alone.
+    pub(super) has_value_borders: bool,
 }
 
 /// The weight of a plane along a feature, against that of a square of the feature's length.
@@ -70,7 +72,7 @@ const FEATURE: f64 = 10.0;
 
 impl Surface {
     /// All faces of the region are triangles.
-    pub(super) fn of(mesh: &EditMesh, region: &Region) -> Self {
+    pub(super) fn of(mesh: &EditMesh, region: &Region, holds_values: bool) -> Self {
         let vertices = region.vertices(mesh);
         let mut indices = vec![NONE; mesh.vertex_capacity()];
         for (index, vertex) in (0..).zip(&vertices) {
@@ -98,18 +100,21 @@ impl Surface {
             features: Vec::new(),
             merges: Vec::new(),
             values: Wedges::default(),
+            has_value_borders: false,
             vertices,
         };
-        let features = surface.find_features(mesh, region);
+        let features = surface.find_features(mesh, region, holds_values);
         surface.find_freedoms(mesh, region, &features);
         surface.add_planes();
-        surface.values = Wedges::of(mesh, &mut surface);
+        if holds_values {
+            surface.values = Wedges::of(mesh, &mut surface);
+        }
         surface
     }
 
     /// Marks the features' sides of triangles. For each vertex how many features end there, or more if it is not clear
     /// where they go on.
-    fn find_features(&mut self, mesh: &EditMesh, region: &Region) -> Vec<u32> {
+    fn find_features(&mut self, mesh: &EditMesh, region: &Region, holds_values: bool) -> Vec<u32> {
         let mut counts = vec![0; self.vertices.len()];
         let mut known = std::collections::BTreeMap::new();
         for index in 0..self.triangles.len() {
@@ -117,7 +122,11 @@ impl Surface {
             let corners: [CornerId; 3] = self.corners(mesh, face);
             for (side, &corner) in corners.iter().enumerate() {
                 let edge = mesh.corner_edge(corner);
-                let Some(ends) = feature(mesh, region, edge) else { continue };
+                let Some(Feature { ends, of_values }) = feature(mesh, region, edge) else { continue };
+                if of_values && !holds_values {
+                    continue;
+                }
+                self.has_value_borders |= of_values;
                 let number = *known.entry(edge).or_insert_with(|| {
                     counts[vertices[side] as usize] += ends;
                     counts[vertices[(side + 1) % 3] as usize] += ends;
@@ -174,18 +183,26 @@ impl Surface {
     }
 }
 
-/// Whether an edge is a feature: the surface ends or branches there, or values or marks end. Then for how many edges it
-/// counts at its ends: more than two mean that the ends stay.
-fn feature(mesh: &EditMesh, region: &Region, edge: EdgeId) -> Option<u32> {
+/// An edge at which something ends.
+struct Feature {
+    /// For how many edges it counts at its ends: more than two mean that the ends stay.
+    ends: u32,
+    /// Whether only texture coordinates or colours end there.
+    of_values: bool,
+}
+
+/// Whether an edge is a feature: the surface ends or branches there, or values or marks end.
+fn feature(mesh: &EditMesh, region: &Region, edge: EdgeId) -> Option<Feature> {
+    let of_shape = |ends| Some(Feature { ends, of_values: false });
     let mut sides = mesh.edge_corners(edge).filter(|&side| region.has_corner(mesh, side));
-    let (Some(one), Some(two)) = (sides.next(), sides.next()) else { return Some(1) };
+    let (Some(one), Some(two)) = (sides.next(), sides.next()) else { return of_shape(1) };
     if sides.next().is_some() || mesh.corner_vertex(one) == mesh.corner_vertex(two) {
-        return Some(3);
+        return of_shape(3);
     }
     let [a, b] = [one, two].map(|side| mesh.corner_face(side));
     let is_marked = mesh.is_sharp(edge) || mesh.is_seam(edge) || mesh.crease(edge) > 0.0;
     let is_border = mesh.material(a) != mesh.material(b) || mesh.is_smooth(a) != mesh.is_smooth(b);
     let is_cut = !mesh.has_same_values(one, mesh.next_corner(two))
         || !mesh.has_same_values(mesh.next_corner(one), two);
-    (is_marked || is_border || is_cut).then_some(1)
+    (is_marked || is_border || is_cut).then_some(Feature { ends: 1, of_values: !is_marked && !is_border })
 }

@@ -234,3 +234,41 @@ proptest! {
         }
     }
 }
+
+/// A box in three layers, whose faces all have the whole image: the corners between them lie at ends of texture coordinates.
+fn tower() -> EditMesh {
+    let (mut mesh, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    let top = mesh.faces().max_by(|a, b| {
+        let height =
+            |face: FaceId| mesh.face_vertices(face).map(|vertex| mesh.position(vertex).y).sum::<f32>();
+        height(*a).total_cmp(&height(*b))
+    });
+    let top = top.expect("a cube has faces");
+    mesh.extrude_region(&[top], crate::ExtrudeOffset::Along(1.0)).expect("a face");
+    mesh
+}
+
+fn height(mesh: &EditMesh) -> f32 {
+    let heights = mesh.vertices().map(|vertex| mesh.position(vertex).y);
+    let (low, high) = heights.fold((f32::MAX, f32::MIN), |(low, high), y| (low.min(y), high.max(y)));
+    high - low
+}
+
+/// The corners of the top went, as those in the middle were held.
+#[test]
+fn what_texture_coordinates_hold_made_the_corners_of_a_box_go() {
+    let mut mesh = tower();
+    let faces: Vec<FaceId> = mesh.faces().collect();
+    for ratio in [0.9, 0.6] {
+        let mut held = mesh.clone();
+        let settings = DecimateSettings { ratio, ..DecimateSettings::default() };
+        let made = held.decimate(&faces, &settings).expect("it can be");
+        assert_eq!(height(&held), 3.0, "{ratio}: all of the box stays");
+        assert_eq!(made.is_held, held.face_count() > (20.0 * ratio) as usize, "and it is said");
+        held.check_structure().expect("whole");
+    }
+    let settings = DecimateSettings { ratio: 0.6, hold_values: false, ..DecimateSettings::default() };
+    let made = mesh.decimate(&faces, &settings).expect("it can be");
+    assert_eq!((made.removed, made.is_held), (8, false), "the vertices in the middle");
+    assert_eq!((height(&mesh), mesh.face_count()), (3.0, 12), "the box");
+}
