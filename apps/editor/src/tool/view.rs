@@ -22,6 +22,9 @@ pub(crate) struct ToolView {
 /// parallel for their meeting point to follow the pointer: its sine, about 3°.
 const NEARLY_PARALLEL: f64 = 0.05;
 
+/// What is nearer to the eye of a perspective is moved as if it were a metre away, in metres.
+const AT_EYE: f64 = 1e-6;
+
 impl ToolView {
     pub(crate) fn projector(&self) -> Projector {
         Projector::new(&self.camera, self.viewport)
@@ -41,7 +44,9 @@ impl ToolView {
     /// perspective, so that it can be dragged all the same.
     fn distance(&self, point: DVec3) -> f64 {
         let distance = -self.camera.to_camera(point).z;
-        if self.screen(point).is_some() { distance } else { 1.0 }
+        // The camera that is looked through is at the eye itself.
+        let is_at_eye = !self.camera.projection.is_orthographic() && distance <= AT_EYE;
+        if self.screen(point).is_some() && !is_at_eye { distance } else { 1.0 }
     }
 
     /// Where a point goes that is dragged by some pixels parallel to the image: it stays under the

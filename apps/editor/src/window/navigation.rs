@@ -72,9 +72,26 @@ impl Editor {
         }
     }
 
-    /// Whoever turns or moves a view through the scene's camera has left it.
-    pub(super) fn leave_camera(&mut self, stage: &Stage) {
-        self.view.camera = self.view.camera.filter(|camera| camera.set == stage.orbit);
+    /// A view through the scene's camera goes where that goes; whoever turns or moves the view itself has left it.
+    pub(super) fn follow_camera(&mut self, stage: &mut Stage) {
+        let Some(through) = self.view.camera else { return };
+        self.view.camera = match camera(&self.document) {
+            Some((_, camera)) if camera != through.camera => {
+                stage.orbit = self.orbit_through(stage, &camera);
+                Some(ThroughCamera { set: stage.orbit, camera, ..through })
+            }
+            Some(_) if through.set == stage.orbit => Some(through),
+            _ => None,
+        };
+    }
+
+    /// The view through a camera, with the frame of its image.
+    fn orbit_through(&self, stage: &Stage, camera: &Camera) -> Orbit {
+        let mut orbit = Orbit::from_camera(camera, stage.orbit.distance(), DVec3::Y);
+        let choices = &self.images.choices;
+        let image = Viewport { width: choices.width, height: choices.height };
+        widen(&mut orbit, image.aspect() / stage.visible_area().size.aspect());
+        orbit
     }
 }
 
@@ -187,12 +204,8 @@ fn look_through_camera(editor: &mut Editor, stage: &mut Stage) {
         return;
     };
     let before = stage.orbit;
-    stage.orbit = Orbit::from_camera(&camera, before.distance(), DVec3::Y);
-    let choices = &editor.images.choices;
-    let image = Viewport { width: choices.width, height: choices.height };
-    let wider = image.aspect() / stage.visible_area().size.aspect();
-    widen(&mut stage.orbit, wider);
-    editor.view.camera = Some(ThroughCamera { before, set: stage.orbit });
+    stage.orbit = editor.orbit_through(stage, &camera);
+    editor.view.camera = Some(ThroughCamera { before, set: stage.orbit, camera });
 }
 
 /// Sees more than a camera does, from the same eye, so that the frame of its image lies within the view. The image is

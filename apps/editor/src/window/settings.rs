@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use trigon_document::scene::{NodeId, Reach};
 use trigon_document::{DisplayMarks, Proportional};
-use trigon_window::scene::camera::{Orbit, Viewport};
+use trigon_window::scene::camera::{Camera, Orbit, Viewport};
 use trigon_window::scene::math::{DQuat, DVec3};
 use trigon_window::{
     Action, DragAction, DragBinding, Key, Keymap, Modifiers, PointerButton, Refinement, Stage,
@@ -109,6 +109,8 @@ pub(crate) struct ThroughCamera {
     pub(crate) before: Orbit,
     /// What it was set to; another view has left the camera.
     pub(crate) set: Orbit,
+    /// The camera as it was then.
+    pub(crate) camera: Camera,
 }
 
 /// Which parts of the window are shown.

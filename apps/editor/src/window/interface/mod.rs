@@ -23,7 +23,7 @@ use crate::request::Request;
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
     let mut requests = Vec::new();
     editor.leave_side(stage);
-    editor.leave_camera(stage);
+    editor.follow_camera(stage);
     view::show_view(ui, editor, stage);
     Panel::top("menus").show(ui, |ui| menu::bar(ui, editor, stage));
     Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));

@@ -1,5 +1,6 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
+mod camera_view;
 mod first_hour;
 mod four_views;
 mod images;

@@ -148,6 +148,7 @@ impl EditMesh {
         const LEAST: f64 = 1e-4;
         let mut shape = Surface::of(self, region, false);
         let extent = self.bounds_of(shape.vertices.iter().copied()).size().max_element();
-        (TIMES * reduce(self, &mut shape, goal)).max((LEAST * extent).powi(2))
+        let least = LEAST * extent;
+        (TIMES * reduce(self, &mut shape, goal)).max(least * least)
     }
 }
