@@ -45,15 +45,15 @@ fn around(whole: Rect, inside: Rect) -> [Rect; 4] {
 #[cfg(test)]
 mod tests {
     use trigon_document::scene::camera::Projection;
-    use trigon_document::scene::math::DVec3;
+    use trigon_document::scene::math::{DVec3, elementary};
 
     use super::*;
 
     #[test]
     fn the_frame_of_a_camera_is_what_its_image_will_hold() {
         // Half as high at any distance as what the view sees.
-        let narrow = Projection::perspective(2.0 * 0.25_f64.atan(), 0.1, None).expect("valid");
-        let wide = Projection::perspective(2.0 * 0.5_f64.atan(), 0.1, None).expect("valid");
+        let narrow = Projection::perspective(2.0 * elementary::atan2(0.25, 1.0), 0.1, None).expect("valid");
+        let wide = Projection::perspective(2.0 * elementary::atan2(0.5, 1.0), 0.1, None).expect("valid");
         let eye = Camera::look_at(DVec3::new(3.0, 1.0, 2.0), DVec3::ZERO, DVec3::Y);
         let view = OverlayView::new(&eye.with_projection(wide), Viewport { width: 400, height: 300 }, 1.0);
         let image = Viewport { width: 200, height: 100 };

@@ -1,6 +1,6 @@
 //! The coordinates themselves: outlines of faces, what is selected, seams, stretch and overlaps by colour.
 
-use trigon_document::mesh::math::{DVec2, Vec3};
+use trigon_document::mesh::math::{DVec2, Vec3, elementary};
 use trigon_document::mesh::triangulate_polygon;
 use trigon_document::modelling::{CornerId, EditMesh, FaceId};
 use trigon_document::{Document, ElementKind, MeshSelection};
@@ -213,7 +213,11 @@ fn stretch(mesh: &EditMesh, face: FaceId, scale: f64) -> f64 {
         let [a, b] = [corner, next].map(|corner| mesh.position(mesh.corner_vertex(corner)).as_dvec3());
         let ratio = flat / a.distance(b);
         // 0 for 1, 1 for 4 and for 1/4.
-        if ratio.is_finite() && ratio > 0.0 { (ratio.ln() / 4.0_f64.ln()).abs() } else { 1.0 }
+        if ratio.is_finite() && ratio > 0.0 {
+            (elementary::ln(ratio) / elementary::ln(4.0)).abs()
+        } else {
+            1.0
+        }
     };
     mesh.face_corners(face).map(of_edge).fold(0.0, f64::max).min(1.0)
 }

@@ -76,8 +76,6 @@ const BY_PANELS: [&str; 11] = [
     "assign_texture",
 ];
 
-/// A path is drawn by no tool yet.
-
 /// Those that a tool of this name in the table runs.
 const BY_TOOLS: [&str; 11] = [
     "knife",

@@ -3,6 +3,7 @@
 use trigon_document::SelectAction;
 use trigon_window::egui;
 use trigon_window::egui::{Align2, FontId, Id, Painter, Panel, PointerButton, Rect, Response, Sense, Ui};
+use trigon_window::scene::math::elementary;
 
 use super::bars::choice;
 use crate::overlay::{GestureOutline, draw_gesture};
@@ -14,7 +15,7 @@ use crate::window::editor::Editor;
 const LEAST_WIDTH: f32 = 160.0;
 
 /// A line of the wheel magnifies by this factor for each point that it scrolls.
-const ZOOM_PER_POINT: f32 = 0.0024;
+const ZOOM_PER_POINT: f64 = 0.0024;
 
 /// Shows it while it is open, in half of what is free at first.
 pub(super) fn show(ui: &mut Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -87,7 +88,7 @@ fn navigate(ui: &Ui, editor: &mut Editor, response: &Response, canvas: &UvCanvas
     }
     let scrolled = ui.input(|input| input.smooth_scroll_delta.y);
     if let Some(at) = response.hover_pos().filter(|_| scrolled != 0.0) {
-        camera.zoom(canvas, at, f64::from((scrolled * ZOOM_PER_POINT).exp()));
+        camera.zoom(canvas, at, elementary::exp(f64::from(scrolled) * ZOOM_PER_POINT));
     }
 }
 
