@@ -34,6 +34,9 @@ pub(super) fn modifiers(ui: &mut Ui, shown: ShownObject<'_>, requests: &mut Vec<
             if let Some(command) = header(ui, &object, stacked, index, stack.len()) {
                 run(command);
             }
+            if let Some(text) = missing(shown, &stacked.modifier) {
+                ui.colored_label(ui.visuals().warn_fg_color, text);
+            }
             if let Some(modifier) = changed(ui, shown, stacked, index) {
                 run(SetModifier { object: Some(object.clone()), index: index as u32, modifier }.into());
             }
@@ -77,6 +80,19 @@ fn header(
         }
     });
     chosen
+}
+
+/// What a modifier lacks, so that it does nothing.
+fn missing(shown: ShownObject<'_>, modifier: &Modifier) -> Option<String> {
+    let mut nodes = shown.document.nodes().nodes().iter();
+    match (modifier.object(), modifier) {
+        (Some(name), _) => {
+            let is_there = nodes.any(|(_, node)| node.name == name && node.mesh.is_some());
+            (!is_there).then(|| format!("There is no object {name} with a mesh: choose another one."))
+        }
+        (None, Modifier::Boolean(_)) => Some("Choose the other object.".into()),
+        (None, _) => None,
+    }
 }
 
 /// Shows the parameters. Returns the modifier with those that a user changed.

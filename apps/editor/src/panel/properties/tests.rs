@@ -293,3 +293,15 @@ fn modifiers_are_added_switched_moved_and_removed_in_the_panel() {
     case.click("Remove Mirror");
     assert_eq!(names(&mut case), []);
 }
+
+#[test]
+fn a_modifier_says_which_object_it_lacks() {
+    let (mut case, _) = case(320.0, 1400.0);
+    select(&mut case, "Cube");
+    let add =
+        |object: &str| json!({ "op": "add_modifier", "modifier": { "kind": "boolean", "object": object } });
+    case.command(add(""));
+    assert!(case.harness.query_by_label_contains("Choose the other object").is_some());
+    case.command(add("Ball"));
+    assert!(case.harness.query_by_label_contains("There is no object Ball").is_some(), "it was deleted");
+}

@@ -82,6 +82,8 @@ fn draw_marks(painter: &Painter, view: &OverlayView, marks: &ToolMarks) {
     let stroke = Stroke::new(1.5, INK);
     for [from, to] in &marks.lines {
         if let Some(line) = view.line(*from, *to) {
+            // So that it is seen on light surfaces, too.
+            painter.line_segment(line, Stroke::new(3.5, Color32::from_black_alpha(150)));
             painter.line_segment(line, stroke);
         }
     }
