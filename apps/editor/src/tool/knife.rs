@@ -150,6 +150,10 @@ impl FaceTool for KnifeTool {
         true
     }
 
+    fn reach(&self) -> f64 {
+        RADIUS
+    }
+
     fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>) {
         let at = self.modal.pointer.in_window().unwrap_or_default();
         let in_middle = self.modal.modifiers().contains(Modifiers::SHIFT);
@@ -198,6 +202,10 @@ impl Surface<'_> {
         if let Some((_, point)) = edge.filter(|(distance, _)| in_middle || *distance <= radius) {
             return Some(point);
         }
+        let outline: Vec<DVec2> = self.mesh.face_vertices(face).filter_map(on_screen).collect();
+        if !contains(&outline, at) {
+            return None;
+        }
         let normal = self.to_world.matrix3.inverse().transpose() * self.mesh.face_area_vector(face);
         let first = self.mesh.face_vertices(face).next()?;
         let on_plane = placed(self.mesh, first, &self.to_world);
@@ -225,6 +233,16 @@ impl Surface<'_> {
             to,
         })
     }
+}
+
+/// Whether a point lies in a polygon, by the even-odd rule.
+fn contains(outline: &[DVec2], at: DVec2) -> bool {
+    let sides = outline.iter().zip(outline.iter().cycle().skip(1));
+    let crossed = sides.filter(|(from, to)| {
+        let share = (at.y - from.y) / (to.y - from.y);
+        (from.y > at.y) != (to.y > at.y) && from.x + share * (to.x - from.x) > at.x
+    });
+    crossed.count() % 2 == 1
 }
 
 /// The share of the way along an edge that is nearest to a ray.

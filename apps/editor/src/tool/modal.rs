@@ -200,6 +200,11 @@ pub(crate) trait FaceTool: Tool {
     /// Whether the face under the pointer matters now.
     fn wants_face(&self) -> bool;
 
+    /// How far beside a face the pointer may be, in logical pixels.
+    fn reach(&self) -> f64 {
+        0.0
+    }
+
     /// The face that is drawn under the pointer, as the window's picks say, after each input.
     fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>);
 }

@@ -65,7 +65,9 @@ impl Editor {
                     ToolKind::Knife => Box::new(KnifeTool::start(document, hands)?),
                     _ => Box::new(LoopCutTool::start(document, hands)?),
                 };
-                let face = hands.pointer.and_then(|at| self.pointing.face(document, stage, pane, at));
+                let reach = tool.reach() * view.scale;
+                let face =
+                    hands.pointer.and_then(|at| self.pointing.face_near(document, stage, pane, at, reach));
                 tool.hover(document, &view, face);
                 return Some(What::OnFaces(tool));
             }
@@ -153,9 +155,11 @@ impl Editor {
             What::OnFaces(tool) => {
                 let state = tool.input(input, hands, &view, &mut self.document);
                 if tool.wants_face() {
+                    let reach = tool.reach() * view.scale;
+                    let (document, pointing) = (&self.document, &mut self.pointing);
                     let face =
-                        hands.pointer.and_then(|at| self.pointing.face(&self.document, stage, &pane, at));
-                    tool.hover(&self.document, &view, face);
+                        hands.pointer.and_then(|at| pointing.face_near(document, stage, &pane, at, reach));
+                    tool.hover(document, &view, face);
                 }
                 state
             }

@@ -128,6 +128,33 @@ impl Pointing {
         Some(answer)
     }
 
+    /// The face of an edited mesh that is seen at a place of a view, or else around it, at most so many pixels away.
+    pub(crate) fn face_near(
+        &mut self,
+        document: &Document,
+        stage: &Stage,
+        pane: &Pane,
+        at: DVec2,
+        reach: f64,
+    ) -> Option<(MeshId, FaceId)> {
+        /// Directions that are tried.
+        const AROUND: [(f64, f64); 8] = [
+            (1.0, 0.0),
+            (0.0, 1.0),
+            (-1.0, 0.0),
+            (0.0, -1.0),
+            (0.7, 0.7),
+            (-0.7, 0.7),
+            (-0.7, -0.7),
+            (0.7, -0.7),
+        ];
+        let near = [0.5, 1.0]
+            .into_iter()
+            .flat_map(|part| AROUND.map(|(x, y)| at + DVec2::new(x, y) * (part * reach)));
+        let positions = std::iter::once(at).chain(near.filter(|_| reach > 0.0));
+        positions.into_iter().find_map(|at| self.face(document, stage, pane, at))
+    }
+
     /// The face of an edited mesh that is seen at a place of a view.
     pub(crate) fn face(
         &mut self,

@@ -62,6 +62,15 @@ fn an_edge_is_cut_in_its_middle_and_escape_leaves_every_byte() {
     });
 }
 
+/// A click a few pixels beside the outline was refused.
+#[test]
+fn clicks_beside_the_outline_snap_to_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    at_the_editor(folder.path(), &[], SIZE, |user| {
+        user.play("keys Tab K\nhover -1 0 1\nmove -5 0\nclick\nclick 1 0.5 1\nkeys Enter\nmesh Cube 10 15 7");
+    });
+}
+
 #[test]
 fn a_cut_that_leaves_the_surface_is_refused_with_the_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
