@@ -53,9 +53,9 @@ pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
 pub use modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, BooleanOperation, DecimateModifier,
-    MirrorModifier, Modifier, ScrewModifier, SolidifyModifier, StackedModifier, SubdivisionModifier,
-    TriangulateModifier, WeldModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
+    DecimateSettings, MirrorModifier, Modifier, ScrewModifier, SolidifySettings, StackedModifier,
+    SubdivisionModifier, TriangulateModifier, WeldModifier,
 };
 pub use operations::*;
 pub use refusal::{Refusal, SolidFault};

@@ -19,7 +19,7 @@ pub(crate) use gesture::{GestureOutline, draw_gesture};
 pub(crate) use gizmo::{Gizmo, GizmoKind, Handle};
 pub(crate) use grid::draw_grid;
 pub(crate) use lights::{camera_at, draw_cameras, draw_lights, light_at};
-pub(crate) use view::OverlayView;
+pub(crate) use view::{OverlayView, distance_to_line};
 
 use trigon_window::egui::Color32;
 

@@ -99,7 +99,7 @@ impl OverlayView {
 }
 
 /// From a point to the line between two others, in pixels.
-pub(super) fn distance_to_line([a, b]: [Pos2; 2], point: Pos2) -> f32 {
+pub(crate) fn distance_to_line([a, b]: [Pos2; 2], point: Pos2) -> f32 {
     let along = b - a;
     let length = along.length_sq();
     let share = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };

@@ -4,7 +4,7 @@ use trigon_document::mesh::math::{DAffine3, DVec2, DVec3};
 use trigon_document::modelling::{EditMesh, FaceId, KnifePoint, ProjectedLine};
 use trigon_document::scene::MeshId;
 use trigon_document::scene::camera::{Projector, Ray};
-use trigon_document::{Document, Knife, ObjectName, PathPoint};
+use trigon_document::{Document, Knife, PathPoint};
 use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
 
 use super::expression::Quantity;
@@ -109,10 +109,9 @@ impl KnifeTool {
             };
             return self.modal.refuse(text);
         }
-        let nodes = document.nodes().nodes();
-        let object = nodes.iter().find(|(_, node)| node.mesh == self.mesh).map(|(object, _)| object);
+        let object = self.mesh.and_then(|mesh| document.object_of(mesh));
         let path = path.into_iter().map(path_point).collect();
-        self.modal.show(document, Knife { object: object.map(ObjectName::of), path }.into());
+        self.modal.show(document, Knife { object, path }.into());
         if document.previewed().is_some() { Modal::confirm(document) } else { ToolState::Running }
     }
 

@@ -3,7 +3,7 @@
 use trigon_document::mesh::math::{DAffine3, DVec2, DVec3};
 use trigon_document::modelling::{EdgeId, EditMesh, FaceId};
 use trigon_document::scene::MeshId;
-use trigon_document::{Document, LoopCut, ObjectName, edge_ring, face_loop};
+use trigon_document::{Document, LoopCut, edge_ring, face_loop};
 use trigon_window::{Hands, Input, PointerButton};
 
 use super::expression::Quantity;
@@ -89,15 +89,13 @@ impl LoopCutTool {
 
     fn cut(&mut self, document: &mut Document) -> ToolState {
         let Some((id, edge)) = self.hovered else { return ToolState::Running };
-        let nodes = document.nodes().nodes();
-        let object = nodes.iter().find(|(_, node)| node.mesh == Some(id)).map(|(object, _)| object);
         let command = LoopCut {
             cuts: self.cuts,
             position: self.position,
             even: self.even,
             flipped: self.flipped,
             edge: Some(edge.index()),
-            object: object.map(ObjectName::of),
+            object: document.object_of(id),
         };
         self.modal.show(document, command.into())
     }

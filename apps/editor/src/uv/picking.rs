@@ -4,24 +4,17 @@ use trigon_document::mesh::math::{DVec2, Vec3};
 use trigon_document::mesh::triangulate_polygon;
 use trigon_document::modelling::{CornerId, EditMesh, FaceId};
 use trigon_document::scene::MeshId;
-use trigon_document::{
-    Command, Document, ElementKind, ElementsOf, ObjectName, Select, SelectAction, SelectElements,
-};
+use trigon_document::{Command, Document, ElementKind, ElementsOf, Select, SelectAction, SelectElements};
 use trigon_window::egui::{Pos2, Rect};
 
 use super::canvas::UvCanvas;
+use crate::overlay::distance_to_line;
 
 /// The set of texture coordinates that is shown.
 pub(crate) const UV_SET: usize = 0;
 
 /// How near is near enough, in points.
 const RADIUS: f32 = 10.0;
-
-/// The object that shows an edited mesh.
-fn object_of(document: &Document, mesh: MeshId) -> Option<ObjectName> {
-    let mut nodes = document.nodes().nodes().iter();
-    nodes.find(|(_, node)| node.mesh == Some(mesh)).map(|(id, _)| ObjectName::of(id))
-}
 
 /// The edited meshes with texture coordinates.
 pub(super) fn meshes(document: &Document) -> impl Iterator<Item = (MeshId, &EditMesh)> {
@@ -49,7 +42,7 @@ pub(crate) fn click(
     let found = found.min_by(|a, b| a.2.total_cmp(&b.2));
     match found {
         Some((id, element, _)) => {
-            let objects = vec![object_of(document, id)?];
+            let objects = vec![document.object_of(id)?];
             Some(Select { objects, elements: vec![element], action }.into())
         }
         None if action == SelectAction::Replace => {
@@ -96,13 +89,6 @@ fn contains(mesh: &EditMesh, face: FaceId, at: DVec2) -> bool {
     })
 }
 
-fn distance_to_line([a, b]: [Pos2; 2], point: Pos2) -> f32 {
-    let along = b - a;
-    let length = along.length_sq();
-    let share = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (a + along * share).distance(point)
-}
-
 /// Selects the elements in a box: vertices and whole edges in it, and faces whose middle is.
 pub(crate) fn within(document: &Document, canvas: &UvCanvas, rect: Rect, action: SelectAction) -> Command {
     let kind = document.selection().kind();
@@ -132,7 +118,7 @@ pub(crate) fn within(document: &Document, canvas: &UvCanvas, rect: Rect, action:
         };
         found.sort_unstable();
         found.dedup();
-        Some(ElementsOf::new(object_of(document, id)?, found))
+        Some(ElementsOf::new(document.object_of(id)?, found))
     };
     SelectElements { parts: meshes(document).filter_map(part).collect(), action }.into()
 }
@@ -153,6 +139,6 @@ pub(crate) fn island(document: &Document, at: DVec2, action: SelectAction) -> Op
     };
     elements.sort_unstable();
     elements.dedup();
-    let parts = vec![ElementsOf::new(object_of(document, id)?, elements)];
+    let parts = vec![ElementsOf::new(document.object_of(id)?, elements)];
     Some(SelectElements { parts, action }.into())
 }

@@ -94,8 +94,8 @@ pub use transform::{
 pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
     ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
-    DecimateModifier, InnerMiter, MirrorModifier, Modifier, OuterMiter, QuadLength, ScrewModifier,
-    SolidifyModifier, SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
+    DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter, QuadLength, ScrewModifier,
+    SolidifySettings, SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 

@@ -13,7 +13,7 @@ use trigon_mesh::math::DAffine3;
 use trigon_modelling::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
-use crate::command::{Command, ImportFile, Outcome};
+use crate::command::{Command, ImportFile, ObjectName, Outcome};
 use crate::document_file::{DocumentFile, ExportError};
 use crate::error::EditError;
 use crate::revision::next_revision;
@@ -162,6 +162,13 @@ impl Document {
     #[must_use]
     pub fn mesh_transform(&self, id: MeshId) -> DAffine3 {
         self.state.mesh_transform(id)
+    }
+
+    /// The first object that shows a mesh, for commands that name one.
+    #[must_use]
+    pub fn object_of(&self, mesh: MeshId) -> Option<ObjectName> {
+        let mut nodes = self.nodes().nodes().iter();
+        nodes.find(|(_, node)| node.mesh == Some(mesh)).map(|(id, _)| ObjectName::of(id))
     }
 
     /// The selection.

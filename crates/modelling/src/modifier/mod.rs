@@ -14,8 +14,10 @@ use serde::{Deserialize, Serialize};
 use crate::refusal::Refusal;
 pub use boolean::{BooleanModifier, BooleanOperation};
 pub use copies::{ArrayModifier, MirrorModifier, WeldModifier};
-pub use surfaces::{BevelModifier, BeveledEdges, DecimateModifier, SubdivisionModifier, TriangulateModifier};
-pub use walls::{ScrewModifier, SolidifyModifier};
+pub use surfaces::{
+    BevelModifier, BeveledEdges, DecimateGoal, DecimateSettings, SubdivisionModifier, TriangulateModifier,
+};
+pub use walls::{ScrewModifier, SolidifySettings};
 
 /// An operation on a whole mesh that stays alive. In JSON an object whose `kind` is the name in lower case with underscores,
 /// as `{ "kind": "mirror" }`; missing parameters have their defaults, unknown ones are errors.
@@ -32,7 +34,7 @@ pub enum Modifier {
     /// Copies in a row.
     Array(ArrayModifier),
     /// Faces get a second layer at a distance.
-    Solidify(SolidifyModifier),
+    Solidify(SolidifySettings),
     /// Edges become faces.
     Bevel(BevelModifier),
     /// Vertices that are close to one another become one.
@@ -40,7 +42,7 @@ pub enum Modifier {
     /// Faces become triangles.
     Triangulate(TriangulateModifier),
     /// Fewer triangles.
-    Decimate(DecimateModifier),
+    Decimate(DecimateSettings),
     /// Edges are swept around an axis.
     Screw(ScrewModifier),
     /// The volume is combined with that of another object.
@@ -106,11 +108,11 @@ kinds! {
     Subdivision(SubdivisionModifier) "Subdivision Surface",
     Mirror(MirrorModifier) "Mirror",
     Array(ArrayModifier) "Array",
-    Solidify(SolidifyModifier) "Solidify",
+    Solidify(SolidifySettings) "Solidify",
     Bevel(BevelModifier) "Bevel",
     Weld(WeldModifier) "Weld",
     Triangulate(TriangulateModifier) "Triangulate",
-    Decimate(DecimateModifier) "Decimate",
+    Decimate(DecimateSettings) "Decimate",
     Screw(ScrewModifier) "Screw",
     Boolean(BooleanModifier) "Boolean",
 }

@@ -114,26 +114,50 @@ impl Default for TriangulateModifier {
     }
 }
 
-/// Cuts faces into triangles and reduces their number, with as little change of the surface as possible.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// When a reduction ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DecimateGoal {
+    /// At a part of the triangles.
+    #[default]
+    Ratio,
+    /// At a number of triangles.
+    Faces,
+    /// At an error.
+    Error,
+}
+
+/// Cuts faces into triangles and reduces their number, with as little change of the surface as possible. Borders, seams,
+/// sharp edges and the borders of materials hold.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct DecimateModifier {
+pub struct DecimateSettings {
+    /// When to end; the other goals' values are not used.
+    pub goal: DecimateGoal,
     /// How many triangles to leave, in parts of all.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub ratio: f64,
+    /// How many triangles to leave in each mesh.
+    pub faces: u32,
+    /// The largest error, in metres: the root of the mean squared distance of a new vertex from the planes of the triangles
+    /// that it stands for.
+    #[schemars(range(min = 0.0))]
+    pub error: f64,
     /// Whether borders of texture coordinates and colours hold. Without it corners keep their values where their vertices
     /// move.
     pub hold_values: bool,
 }
 
-impl DecimateModifier {
-    pub(super) fn check(&self) -> Result<(), Refusal> {
-        check_range("the ratio of triangles", self.ratio, 0.0..=1.0, "0 to 1")
+impl DecimateSettings {
+    pub(crate) fn check(&self) -> Result<(), Refusal> {
+        check_range("the ratio of triangles", self.ratio, 0.0..=1.0, "0 to 1")?;
+        check_distance("the error", self.error)
     }
 }
 
-impl Default for DecimateModifier {
+impl Default for DecimateSettings {
+    /// Half of the triangles.
     fn default() -> Self {
-        Self { ratio: 0.5, hold_values: true }
+        Self { goal: DecimateGoal::default(), ratio: 0.5, faces: 1000, error: 0.001, hold_values: true }
     }
 }

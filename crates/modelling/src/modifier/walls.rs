@@ -6,17 +6,18 @@ use serde::{Deserialize, Serialize};
 use super::{check_distance, check_finite, check_range};
 use crate::refusal::Refusal;
 
-/// Gives faces a second layer behind them, and joins both along borders.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Gives faces a second layer behind them, joined along borders, so that a surface becomes a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct SolidifyModifier {
+pub struct SolidifySettings {
     /// The distance between both layers, in metres.
     #[schemars(range(min = 0.0))]
     pub thickness: f64,
     /// Where the wall lies: −1 is behind the surface, 0 in its middle, 1 in front of it.
     #[schemars(range(min = -1.0, max = 1.0))]
     pub offset: f64,
-    /// Whether walls that meet at an angle are as thick as others.
+    /// Whether the distance between the planes of both layers is the thickness, also at folds. Otherwise vertices move by
+    /// the thickness, and walls that meet at an angle are thinner.
     pub even: bool,
     /// Whether the layers are joined along borders.
     pub rim: bool,
@@ -26,14 +27,15 @@ pub struct SolidifyModifier {
     pub inner_material: Option<u32>,
 }
 
-impl SolidifyModifier {
-    pub(super) fn check(&self) -> Result<(), Refusal> {
+impl SolidifySettings {
+    pub(crate) fn check(&self) -> Result<(), Refusal> {
         check_distance("the thickness of a wall", self.thickness)?;
         check_range("the offset of a wall", self.offset, -1.0..=1.0, "-1 to 1")
     }
 }
 
-impl Default for SolidifyModifier {
+impl Default for SolidifySettings {
+    /// A centimetre behind the surface, even, with a rim.
     fn default() -> Self {
         Self {
             thickness: 0.01,

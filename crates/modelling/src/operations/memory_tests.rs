@@ -4,6 +4,7 @@ use trigon_math::{DAffine3, DVec3, Plane};
 use trigon_mesh::primitives;
 
 use super::*;
+use crate::modifier::{DecimateSettings, SolidifySettings};
 use crate::tests::with_affine_values;
 use crate::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
 

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane};
 
 use super::*;
+use crate::modifier::{DecimateSettings, SolidifySettings};
 use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
 use crate::{BooleanOperation, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 

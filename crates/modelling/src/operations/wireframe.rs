@@ -11,13 +11,14 @@ use crate::ids::{CornerId, FaceId, VertexId};
 use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
-/// Parameters of [`EditMesh::wireframe_faces`].
+/// Makes struts of the edges of faces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WireframeSettings {
-    /// The width and height of struts, in metres; at least 0.
+    /// The width and height of struts, in metres.
+    #[schemars(range(min = 0.0))]
     pub thickness: f64,
-    /// Whether the given faces go, with edges and vertices that nothing else uses.
+    /// Whether the faces go, with edges and vertices that nothing else uses.
     pub replace: bool,
 }
 

@@ -6,12 +6,10 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::layers::{LayerKind, LayerValues};
 use crate::modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, DecimateModifier, MirrorModifier, Modifier,
-    ScrewModifier, SolidifyModifier, SubdivisionModifier, TriangulateModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, DecimateSettings, MirrorModifier, Modifier,
+    ScrewModifier, SolidifySettings, SubdivisionModifier, TriangulateModifier,
 };
-use crate::operations::{
-    BevelSettings, BooleanTool, DecimateGoal, DecimateSettings, SolidifySettings, SpinSettings,
-};
+use crate::operations::{BevelSettings, BooleanTool, SpinSettings};
 use crate::refusal::Refusal;
 use crate::stack::objects::{ModifierObjects, NoObjects};
 
@@ -125,11 +123,9 @@ impl EditMesh {
         if vertices.is_empty() { Ok(()) } else { self.merge_by_distance(&vertices, distance).map(drop) }
     }
 
-    fn modify_by_solidify(&mut self, settings: &SolidifyModifier) -> Result<(), Refusal> {
-        let &SolidifyModifier { thickness, offset, even, rim, rim_material, inner_material } = settings;
-        let of_operation = SolidifySettings { thickness, offset, even, rim, rim_material, inner_material };
+    fn modify_by_solidify(&mut self, settings: &SolidifySettings) -> Result<(), Refusal> {
         let faces: Vec<FaceId> = self.faces().collect();
-        if faces.is_empty() { Ok(()) } else { self.solidify_faces(&faces, &of_operation).map(drop) }
+        if faces.is_empty() { Ok(()) } else { self.solidify_faces(&faces, settings).map(drop) }
     }
 
     fn modify_by_bevel(&mut self, settings: &BevelModifier) -> Result<(), Refusal> {
@@ -174,16 +170,9 @@ impl EditMesh {
         self.edges().filter(is_sharp).collect()
     }
 
-    fn modify_by_decimate(&mut self, settings: &DecimateModifier) -> Result<(), Refusal> {
-        let goal = DecimateGoal::Ratio;
-        let of_operation = DecimateSettings {
-            goal,
-            ratio: settings.ratio,
-            hold_values: settings.hold_values,
-            ..DecimateSettings::default()
-        };
+    fn modify_by_decimate(&mut self, settings: &DecimateSettings) -> Result<(), Refusal> {
         let faces: Vec<FaceId> = self.faces().collect();
-        if faces.is_empty() { Ok(()) } else { self.decimate(&faces, &of_operation).map(drop) }
+        if faces.is_empty() { Ok(()) } else { self.decimate(&faces, settings).map(drop) }
     }
 
     fn modify_by_screw(&mut self, settings: &ScrewModifier) -> Result<(), Refusal> {

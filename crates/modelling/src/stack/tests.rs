@@ -7,8 +7,8 @@ use trigon_mesh::{Mesh, primitives};
 use super::*;
 use crate::ids::{EdgeId, FaceId, NONE};
 use crate::modifier::{
-    ArrayModifier, BevelModifier, BeveledEdges, DecimateModifier, MirrorModifier, ScrewModifier,
-    SolidifyModifier, TriangulateModifier, WeldModifier,
+    ArrayModifier, BevelModifier, BeveledEdges, DecimateSettings, MirrorModifier, ScrewModifier,
+    SolidifySettings, TriangulateModifier, WeldModifier,
 };
 use crate::tests::meshes;
 
@@ -183,14 +183,14 @@ fn edges_without_faces_are_shown_before_those_of_the_cage() {
 
 #[test]
 fn a_sheet_becomes_a_wall_a_line_a_cylinder_and_a_sphere_coarse() {
-    let wall = SolidifyModifier { thickness: 0.5, ..SolidifyModifier::default() };
+    let wall = SolidifySettings { thickness: 0.5, ..SolidifySettings::default() };
     let wall = evaluated(&with(&primitives::grid(2.0, 3.0, 1, 1), vec![StackedModifier::new(wall)]));
     assert!(wall.is_watertight() && (wall.volume() - 3.0).abs() < 1e-6, "{}", wall.volume());
     let line = primitives::polyline(&[Vec3::X, Vec3::X + Vec3::Y]);
     let screw = StackedModifier::new(ScrewModifier::default());
     let tube = evaluated(&with(&line, vec![screw]));
     assert_eq!((tube.vertex_count(), tube.face_count()), (32, 16), "sixteen steps that close");
-    let half = StackedModifier::new(DecimateModifier::default());
+    let half = StackedModifier::new(DecimateSettings::default());
     assert_eq!(evaluated(&with(&primitives::icosphere(1.0, 2), vec![half])).face_count(), 160, "of 320");
 }
 
@@ -267,10 +267,10 @@ pub(crate) fn stacked() -> impl Strategy<Value = StackedModifier> {
     let triangulate = (4u32..6).prop_map(|least_corners| TriangulateModifier { least_corners }.into());
     let solidify =
         (0.0..0.5f64, -1.0..=1.0f64, any::<[bool; 2]>()).prop_map(|(thickness, offset, [even, rim])| {
-            SolidifyModifier { thickness, offset, even, rim, ..SolidifyModifier::default() }.into()
+            SolidifySettings { thickness, offset, even, rim, ..SolidifySettings::default() }.into()
         });
     let decimate =
-        (0.0..=1.0f64).prop_map(|ratio| DecimateModifier { ratio, ..DecimateModifier::default() }.into());
+        (0.0..=1.0f64).prop_map(|ratio| DecimateSettings { ratio, ..DecimateSettings::default() }.into());
     let screw =
         (-360.0..360.0f64, 1u32..5, 0.0..1.0f64, 1u32..3).prop_map(|(angle, steps, height, turns)| {
             ScrewModifier { angle, steps, height, turns, ..ScrewModifier::default() }.into()

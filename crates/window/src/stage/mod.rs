@@ -1,26 +1,28 @@
 //! The contents of a window, shared by the application and the window: scene, camera, settings,
 //! keys, and text over the image.
 
+mod images;
+
 use std::sync::Arc;
 use std::time::Duration;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
-use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Shadows, SightRays, Snap, StageTimes};
+use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Snap, StageTimes};
 
-use crate::drawer::{Drawer, DrawnBy};
+use crate::drawer::Drawer;
 use crate::input::InputOwner;
 use crate::keymap::Keymap;
 use crate::moves::Moves;
 use crate::overlay::Overlay;
 use crate::pacing::{Progress, USUAL_BUDGET};
 use crate::panes::{self, Area, Pane};
-use crate::refinement::{self, Comparison, QualityReport, Refinement, Wanted};
-use crate::shared_scene::{Revision, SharedScene};
-use crate::shown::{self, Shown};
+use crate::refinement::{Comparison, QualityReport, Refinement};
+use crate::shared_scene::SharedScene;
+use crate::shown::Shown;
 use crate::theme::Theme;
 use crate::waker::Waker;
+pub(crate) use images::Subject;
 
 /// Size of a new window in logical pixels, as in F3D.
 const DEFAULT_SIZE: Viewport = Viewport { width: 1000, height: 600 };
@@ -511,94 +513,6 @@ impl Stage {
     pub(crate) fn set_progress(&mut self, progress: Option<Progress>, percent: Option<u8>) {
         (self.progress, self.percent) = (progress, percent);
     }
-
-    /// How the window's images at rest are drawn, step by step.
-    pub(crate) fn ladder(&self) -> Vec<RenderSettings> {
-        let steps = refinement::ladder(&self.settings, self.drawer.is_some());
-        steps.into_iter().map(|settings| self.fitted(settings, 1.0)).collect()
-    }
-
-    /// The steps to do at rest: those of the ladder, followed by the comparison.
-    pub(crate) fn wanted_steps(&self) -> Vec<usize> {
-        let length = refinement::ladder(&self.settings, self.drawer.is_some()).len();
-        refinement::wanted(length, self.shown_refinement(), self.comparison)
-    }
-
-    /// The image of an application's drawer is not replaced by a better one.
-    fn shown_refinement(&self) -> Refinement {
-        if self.drawer.is_some() { Refinement::Settings } else { self.refinement }
-    }
-
-    /// Which image to show at rest.
-    pub(crate) fn wanted_image(&self) -> Wanted {
-        match (self.comparison, self.shown_refinement()) {
-            (Comparison::Shown, _) => Wanted::Difference,
-            (_, Refinement::Reference) => Wanted::Best,
-            (_, Refinement::Settings) => Wanted::Settings,
-        }
-    }
-
-    /// How drafts are drawn: with no more rays than the draft preset has, and reduced by a factor
-    /// in each direction.
-    pub(crate) fn draft_settings(&self, shrink: f64) -> RenderSettings {
-        let mut settings = RenderSettings { samples_per_axis: 1, samples: 1, ..self.settings.clone() };
-        let (effects, most) = (&mut settings.effects, Preset::Draft.quality());
-        if effects.shadows == Shadows::Rays {
-            effects.shadows = most.shadows;
-        }
-        if let Some(occlusion) = &mut effects.ambient_occlusion {
-            occlusion.rays = occlusion.rays.min(most.occlusion_rays);
-        }
-        if let SightRays::Glass { bounces } = &mut effects.sight {
-            *bounces = (*bounces).min(most.glass_bounces);
-        }
-        self.fitted(settings, shrink)
-    }
-
-    /// What draws the window's image again: [`Stage::settings`] for the window's size, with line widths in
-    /// physical pixels.
-    #[must_use]
-    pub fn image_settings(&self) -> RenderSettings {
-        RenderSettings { outputs: self.settings.outputs, ..self.fitted(self.settings.clone(), 1.0) }
-    }
-
-    /// For the window's size, reduced by a factor in each direction.
-    fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
-        settings.outputs = shown::OUTPUTS;
-        let larger = (self.scale / shrink) as f32;
-        settings.line_width *= larger;
-        settings.point_size = settings.point_size.map(|size| size * larger);
-        if let Some(points) = &mut settings.vertices {
-            points.size *= larger;
-            points.marked_size *= larger;
-        }
-        let smaller = |size: u32| ((f64::from(size) / shrink) as u32).clamp(1, trigon_scene::MAX_SIZE);
-        let Viewport { width, height } = self.image_area().size;
-        (settings.width, settings.height) = (smaller(width), smaller(height));
-        settings
-    }
-
-    /// Everything that the window's image depends on.
-    pub(crate) fn subject(&self) -> Subject {
-        let Self { orbit, viewport, scale, four_views, .. } = *self;
-        let area = self.visible_area();
-        let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
-        let scene = self.scene.revision();
-        Subject { scene, orbit, area, four_views, settings, drawer, viewport, scale }
-    }
-}
-
-/// Everything that the window's image depends on: as long as this is unchanged, so is the image.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Subject {
-    scene: Revision,
-    orbit: Orbit,
-    area: Area,
-    four_views: bool,
-    settings: RenderSettings,
-    drawer: DrawnBy,
-    viewport: Viewport,
-    scale: f64,
 }
 
 #[cfg(test)]

@@ -1,8 +1,11 @@
 //! What a stage knows of its window.
 
 use super::*;
+use crate::refinement::Wanted;
+use crate::shown;
 use trigon_mesh::primitives;
-use trigon_scene::{AmbientOcclusion, Material, Outputs, SightRays, VertexPoints};
+use trigon_scene::quality::Preset;
+use trigon_scene::{AmbientOcclusion, Material, Outputs, Shadows, SightRays, VertexPoints};
 
 fn stage() -> Stage {
     let mut stage = Stage::new("test");

@@ -12,53 +12,13 @@ mod surface;
 mod tests;
 mod wedges;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use self::collapse::{Goal, reduce};
 use self::surface::Surface;
 use super::region::Region;
 use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
+use crate::modifier::{DecimateGoal, DecimateSettings};
 use crate::refusal::Refusal;
-
-/// When a reduction ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DecimateGoal {
-    /// At a part of the triangles.
-    #[default]
-    Ratio,
-    /// At a number of triangles.
-    Faces,
-    /// At an error.
-    Error,
-}
-
-/// Parameters of [`EditMesh::decimate`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct DecimateSettings {
-    /// When to end; the other goals' values are not used.
-    pub goal: DecimateGoal,
-    /// For a ratio: how many triangles to leave, in parts of all; 0 to 1.
-    pub ratio: f64,
-    /// For a number: how many triangles to leave.
-    pub faces: u32,
-    /// For an error: the largest distance of a new vertex from the planes of the triangles that it stands for, in metres: the
-    /// root of the mean square, by area.
-    pub error: f64,
-    /// Whether borders of texture coordinates and colours hold. Without it corners keep their values where their vertices
-    /// move.
-    pub hold_values: bool,
-}
-
-impl Default for DecimateSettings {
-    /// Half of the triangles.
-    fn default() -> Self {
-        Self { goal: DecimateGoal::default(), ratio: 0.5, faces: 1000, error: 0.001, hold_values: true }
-    }
-}
 
 /// What was left.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -75,17 +35,6 @@ pub struct Decimated {
 }
 
 impl DecimateSettings {
-    fn check(&self) -> Result<(), Refusal> {
-        let refused = |parameter, value, range| Err(Refusal::OutOfRange { parameter, value, range });
-        if !(0.0..=1.0).contains(&self.ratio) {
-            return refused("the ratio of triangles", self.ratio, "0 to 1");
-        }
-        if !(self.error >= 0.0 && self.error.is_finite()) {
-            return refused("the error", self.error, "at least 0");
-        }
-        Ok(())
-    }
-
     fn goal(&self, triangles: usize) -> Goal {
         let (triangles, error) = match self.goal {
             DecimateGoal::Ratio => ((triangles as f64 * self.ratio) as usize, f64::INFINITY),

@@ -4,61 +4,16 @@ mod shift;
 #[cfg(test)]
 mod tests;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use trigon_math::DVec3;
 
 use super::region::{BorderEdge, Region, SplitVertices};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
+use crate::modifier::SolidifySettings;
 use crate::refusal::Refusal;
 use crate::slots::NewElements;
 
-/// Parameters of [`EditMesh::solidify_faces`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SolidifySettings {
-    /// The distance between both layers, in metres; at least 0.
-    pub thickness: f64,
-    /// Where the wall lies: −1 is behind the surface, 0 in its middle, 1 in front of it.
-    pub offset: f64,
-    /// Whether the distance between the planes of both layers is the thickness, also at folds. Otherwise vertices move by
-    /// the thickness, and walls that meet at an angle are thinner.
-    pub even: bool,
-    /// Whether the layers are joined along borders.
-    pub rim: bool,
-    /// The material slot of the rim. Default: those of the faces beside it.
-    pub rim_material: Option<u32>,
-    /// The material slot of the second layer. Default: those of the faces in front of it.
-    pub inner_material: Option<u32>,
-}
-
-impl Default for SolidifySettings {
-    /// A centimetre behind the surface, even, with a rim.
-    fn default() -> Self {
-        Self {
-            thickness: 0.01,
-            offset: -1.0,
-            even: true,
-            rim: true,
-            rim_material: None,
-            inner_material: None,
-        }
-    }
-}
-
 impl SolidifySettings {
-    fn check(&self) -> Result<(), Refusal> {
-        let refused = |parameter, value, range| Err(Refusal::OutOfRange { parameter, value, range });
-        if !(self.thickness >= 0.0 && self.thickness.is_finite()) {
-            return refused("the thickness of a wall", self.thickness, "at least 0");
-        }
-        if !(-1.0..=1.0).contains(&self.offset) {
-            return refused("the offset of a wall", self.offset, "-1 to 1");
-        }
-        Ok(())
-    }
-
     /// How far both layers are from the old surface along its normal: the given faces, and the new ones.
     fn distances(&self) -> [f64; 2] {
         [1.0, -1.0].map(|side| self.thickness * (self.offset + side) / 2.0)

@@ -8,6 +8,7 @@ use trigon_math::{DAffine3, DVec3, Plane, Vec3, area_vector};
 use trigon_mesh::triangulate_polygon;
 
 use super::*;
+use crate::modifier::{DecimateSettings, SolidifySettings};
 use crate::tests::check_operation;
 use crate::{BooleanOperation, CornerId, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use inputs::Input;
