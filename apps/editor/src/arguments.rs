@@ -11,7 +11,7 @@ use trigon_io::UpAxis;
 /// `[{"op":"add_object","object":{"shape":"cube","edge":2}},{"op":"translate","offset":[0,1,0]}]`; it starts with the
 /// file that is given, or with nothing. --list-commands tells all commands, with a longer example. The result is written whole or not at all, and a file that it replaces is kept with `.bak` at the
 /// end of its name. Exit codes: 0 done, 1 something failed, 2 wrong usage.
-#[derive(Debug, Parser)]
+#[derive(Debug, Default, Parser)]
 #[command(name = "trigon-editor", version)]
 pub(crate) struct Arguments {
     /// The model or scene to edit; a window starts with a cube if none is given, a script with an empty scene.
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     /// Where the result of a script goes: .glb, .obj, .ply, .stl or .off
     ///
     /// A .glb is the editor's own file, which other programs open, too; the others, and a .glb with
-    /// one of --up, --scale and --selection-only, are for other programs alone, and what they cannot
+    /// one of --up, --scale, --selection-only and --no-modifiers, are for other programs alone, and what they cannot
     /// hold is said. Materials and images of an .obj lie beside it.
     #[arg(long, short, value_name = "FILE", requires = "run")]
     pub(crate) output: Option<PathBuf>,
@@ -51,6 +51,10 @@ pub(crate) struct Arguments {
     /// Write the objects only that are selected when the script ends.
     #[arg(long)]
     pub(crate) selection_only: bool,
+
+    /// Write meshes as they are edited, without their modifiers.
+    #[arg(long)]
+    pub(crate) no_modifiers: bool,
 
     /// Cut polygons into triangles.
     #[arg(long)]

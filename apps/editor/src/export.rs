@@ -18,6 +18,8 @@ pub(crate) struct ExportChoices {
     /// Whether it gets only what is selected.
     pub(crate) selection_only: bool,
     pub(crate) triangulate: bool,
+    /// Whether meshes are written as their modifiers make them, instead of as they are edited.
+    pub(crate) modifiers: bool,
     /// Whether numbers are written as text where a format has both.
     pub(crate) text: bool,
 }
@@ -30,6 +32,7 @@ impl ExportChoices {
             scale: arguments.scale.unwrap_or(1.0),
             selection_only: arguments.selection_only,
             triangulate: arguments.triangulate,
+            modifiers: !arguments.no_modifiers,
             text: arguments.ascii,
         }
     }
@@ -41,6 +44,7 @@ impl ExportChoices {
             up: self.up,
             scale: self.scale,
             faces: if self.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
+            modifiers: self.modifiers,
             encoding: if self.text { Encoding::Text } else { Encoding::Binary },
             ..ExportOptions::default()
         }
@@ -50,8 +54,9 @@ impl ExportChoices {
 /// The format of the result; none if it is the editor's own file.
 pub(crate) fn format_of(arguments: &Arguments, output: &Path) -> Result<Option<Format>, String> {
     let format = format_by_ending(output)?;
-    let is_plain = arguments.up.is_none() && arguments.scale.is_none() && !arguments.selection_only;
-    Ok((format != Format::Glb || !is_plain).then_some(format))
+    let is_changed = arguments.up.is_some() || arguments.scale.is_some();
+    let is_part = arguments.selection_only || arguments.no_modifiers;
+    Ok((format != Format::Glb || is_changed || is_part).then_some(format))
 }
 
 /// The format that a file's ending names.

@@ -62,6 +62,7 @@ pub(crate) enum ToolKind {
     PushPull,
     Shear,
     ToSphere,
+    Measure,
     SelectBox,
     SelectCircle,
     SelectLasso,
@@ -102,6 +103,8 @@ pub(crate) enum ViewRequest {
     Render,
     /// Asks where to write what the view shows.
     Screenshot,
+    /// Asks where to write the outlines of faces in the plane of their texture coordinates.
+    UvLayout,
 }
 
 /// How surfaces are shown.
@@ -136,6 +139,8 @@ pub(crate) enum ImageKind {
     Screenshot,
     /// What was rendered last.
     Render,
+    /// The texture coordinates of what is edited.
+    UvLayout,
 }
 
 /// What happens to files.

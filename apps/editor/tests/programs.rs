@@ -84,13 +84,18 @@ fn the_commands_are_told() {
 fn the_ending_of_the_output_chooses_its_format() {
     let folder = folder("formats");
     let model = write(&folder, "square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
-    let script = write(&folder, "twice.json", TWICE);
+    // Four faces, and as many by a modifier.
+    let array = r#", { "op": "leave_edit_mode" },
+    { "op": "add_modifier", "modifier": { "kind": "array", "count": 2 } }
+]"#;
+    let script = write(&folder, "twice.json", &TWICE.replace("\n]", array));
     for (name, options, faces) in [
-        ("out.obj", &["--up", "+Z"][..], 4),
-        ("out.ply", &["--ascii", "--triangulate"], 8),
-        ("out.stl", &["--scale", "1000"], 8),
-        ("out.off", &["--quiet"], 4),
-        ("out.glb", &["--selection-only"], 8),
+        ("out.obj", &["--up", "+Z"][..], 8),
+        ("out.ply", &["--ascii", "--triangulate"], 16),
+        ("out.stl", &["--scale", "1000"], 16),
+        ("out.off", &["--quiet"], 8),
+        ("out.glb", &["--selection-only"], 16),
+        ("edited.off", &["--no-modifiers"], 4),
     ] {
         let output = folder.join(name);
         let mut arguments = vec!["--run".as_ref(), script.as_path(), &model, "--output".as_ref(), &output];

@@ -279,7 +279,8 @@ fn has_command(modifier: &Modifier) -> bool {
 /// Compares what is shown now with what is made in both ways. Returns how many modifiers were shown.
 fn check(session: &mut Session, what: &str) -> usize {
     let (before, done) = (session.mesh().clone(), session.document.history().done().len());
-    let states = session.document.modifier_states(session.id);
+    session.document.scene();
+    let states: Vec<ModifierState> = session.document.modifier_states(session.id).cloned().collect();
     // Commands have no limit such as that of a view.
     if states.iter().any(|state| matches!(state, ModifierState::Fewer(_) | ModifierState::TooDense(_))) {
         return 0;

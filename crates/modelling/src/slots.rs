@@ -37,6 +37,15 @@ pub(super) struct NewElements {
 }
 
 impl NewElements {
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            vertices: self.vertices + other.vertices,
+            edges: self.edges + other.edges,
+            corners: self.corners + other.corners,
+            faces: self.faces + other.faces,
+        }
+    }
+
     /// As many as a mesh has.
     pub(super) fn of(mesh: &EditMesh) -> Self {
         Self {

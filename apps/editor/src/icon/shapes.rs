@@ -18,6 +18,7 @@ impl Icon {
             Self::Bevel => BEVEL,
             Self::LoopCut => LOOP_CUT,
             Self::Knife => KNIFE,
+            Self::Measure => MEASURE,
             Self::Slide => SLIDE,
             Self::ShrinkFatten => SHRINK_FATTEN,
             Self::Vertex => VERTEX,
@@ -44,6 +45,11 @@ const fn arc(center: [f32; 2], radius: f32, degrees: [f32; 2]) -> Part {
     Curve(Arc { center, radii: [radius; 2], degrees })
 }
 
+const MEASURE: &[Part] = &[
+    Loop(&[[-0.96, 0.4], [0.4, -0.96], [0.96, -0.4], [-0.4, 0.96]]),
+    Line(&[[-0.5, -0.06], [-0.25, 0.19]]),
+    Line(&[[-0.05, -0.51], [0.2, -0.26]]),
+];
 const SELECT_BOX: &[Part] = &[
     Line(&[[-0.85, -0.35], [-0.85, -0.85], [-0.35, -0.85]]),
     Line(&[[0.35, -0.85], [0.85, -0.85], [0.85, -0.35]]),

@@ -231,6 +231,14 @@ pub(crate) struct ToolMarks {
     pub(crate) circle: Option<(DVec3, f64)>,
     /// What something snapped to.
     pub(crate) point: Option<DVec3>,
+    pub(crate) label: Option<ToolLabel>,
+}
+
+/// A text beside a point.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ToolLabel {
+    pub(crate) at: DVec3,
+    pub(crate) text: String,
 }
 
 /// How much slower the pointer is while Shift is held.

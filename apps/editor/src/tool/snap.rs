@@ -3,10 +3,10 @@
 
 use trigon_document::mesh::Mesh;
 use trigon_document::mesh::math::{DAffine3, DMat3, DVec2, DVec3, Vec3};
-use trigon_document::modelling::EditMesh;
+use trigon_document::modelling::{EditMesh, VertexId};
+use trigon_document::scene::Node;
 use trigon_document::scene::camera::Ray;
-use trigon_document::scene::{Node, NodeId};
-use trigon_document::{Document, ElementKind, MeshSelection};
+use trigon_document::{Document, Selection};
 
 use super::selected::Selected;
 use super::view::ToolView;
@@ -151,39 +151,47 @@ const REACH: f64 = 20.0;
 impl SnapTargets {
     /// All that is visible and not selected.
     pub(crate) fn of(document: &Document) -> Self {
+        Self::without(document, Some(document.selection()))
+    }
+
+    /// All that is visible.
+    pub(crate) fn all(document: &Document) -> Self {
+        Self::without(document, None)
+    }
+
+    fn without(document: &Document, selection: Option<&Selection>) -> Self {
         let scene = document.nodes();
         let mut targets = Self::default();
         let placements = scene.visible_transforms();
-        for (object, node) in scene.nodes().iter() {
+        let moves = |above| selection.is_some_and(|all| !all.is_editing() && all.objects.contains(&above));
+        for (object, node) in scene.nodes().iter().filter(|&(object, _)| !scene.ancestors(object).any(moves))
+        {
             if let Some(Some(placement)) = placements.get(object.index()) {
-                targets.add_object(document, object, node, placement);
+                targets.add_object(document, node, selection, placement);
             }
         }
         targets
     }
 
-    fn add_object(&mut self, document: &Document, object: NodeId, node: &Node, placement: &DAffine3) {
-        let selection = document.selection();
+    fn add_object(
+        &mut self,
+        document: &Document,
+        node: &Node,
+        selection: Option<&Selection>,
+        placement: &DAffine3,
+    ) {
         let Some(id) = node.mesh else { return };
-        let moves = |above: NodeId| selection.objects.contains(&above);
-        if !selection.is_editing() && document.nodes().ancestors(object).any(moves) {
-            return;
-        }
         if let Some(mesh) = document.mesh(id) {
-            self.add_edited(mesh, selection.of(id), selection.kind(), placement);
+            let moving =
+                selection.and_then(|all| Some(all.of(id)?.vertices(mesh, all.kind()))).unwrap_or_default();
+            self.add_edited(mesh, &moving, placement);
         } else if let Some(asset) = document.nodes().meshes().get(id) {
             self.add_mesh(asset.mesh(), placement);
         }
     }
 
-    fn add_edited(
-        &mut self,
-        mesh: &EditMesh,
-        selection: Option<&MeshSelection>,
-        kind: ElementKind,
-        placement: &DAffine3,
-    ) {
-        let moving = selection.map(|selection| selection.vertices(mesh, kind)).unwrap_or_default();
+    /// Without what has a vertex that moves.
+    fn add_edited(&mut self, mesh: &EditMesh, moving: &[VertexId], placement: &DAffine3) {
         let stays = |vertex| moving.binary_search(&vertex).is_err();
         let pixel = |vertex| in_world(mesh.position(vertex), placement);
         let visible = mesh.vertices().filter(|&vertex| !mesh.is_vertex_hidden(vertex) && stays(vertex));

@@ -70,7 +70,7 @@ impl TransformTool {
 }
 
 /// With four digits after the point, and no minus before a zero.
-fn shown(metres: f64) -> String {
+pub(super) fn shown(metres: f64) -> String {
     let text = format!("{metres:.4}");
     if text == "-0.0000" { "0.0000".into() } else { text }
 }

@@ -2,10 +2,11 @@
 //! what is selected in the mesh.
 //!
 //! `canvas` maps coordinates to points of the window, `backdrop` draws the image behind, `shapes` draws faces, edges and
-//! vertices, and `picking` turns points and boxes into commands that select.
+//! vertices, `picking` turns points and boxes into commands that select, and `layout` makes an image of it all.
 
 mod backdrop;
 mod canvas;
+mod layout;
 mod picking;
 mod shapes;
 
@@ -15,6 +16,7 @@ use trigon_window::egui::{Painter, Pos2};
 
 pub(crate) use backdrop::Backdrop;
 pub(crate) use canvas::{UvCamera, UvCanvas};
+pub(crate) use layout::layout;
 pub(crate) use picking::{click, island, within};
 pub(crate) use shapes::UvColors;
 

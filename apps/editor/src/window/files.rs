@@ -8,7 +8,7 @@ use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;
 
-use super::dialog::{Extents, Purpose};
+use super::dialog::Purpose;
 use super::editor::{Editor, Message, WELCOME};
 use super::file_version::FileVersion;
 use super::loading::{Found, LoadPurpose, Loading, Outcome};
@@ -19,7 +19,7 @@ use super::panels::Report;
 use super::recovery::{Left, Recovery, set_damaged_aside};
 use super::settings::{Look, ToolSettings};
 use crate::export;
-use crate::request::{FileAction, FileRequest};
+use crate::request::{FileAction, FileRequest, ImageKind};
 
 /// From the right, above and before.
 const HOME_DIRECTION: DVec3 = DVec3::new(-0.8, -0.6, -1.0);
@@ -124,7 +124,7 @@ impl Editor {
             },
             other => {
                 if let Some(purpose) = Purpose::of(other) {
-                    self.dialog.exchange.extents = Extents::of(&mut self.document);
+                    self.dialog.exchange.measure(&mut self.document);
                     let suggestion = self.suggestion(&purpose);
                     self.dialog.ask(purpose, &suggestion);
                 }
@@ -138,6 +138,10 @@ impl Editor {
         match purpose {
             Purpose::SaveAs => path.with_extension("glb"),
             Purpose::Export => path.with_extension("obj"),
+            Purpose::Image(ImageKind::UvLayout) => {
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+                path.with_file_name(format!("{stem}-uv.png"))
+            }
             Purpose::Image(_) => path.with_extension("png"),
             _ => PathBuf::new(),
         }
@@ -335,7 +339,11 @@ impl Editor {
         self.message = match written {
             Ok(losses) if losses.is_empty() => Message::Info(format!("Exported {}", path.display())),
             Ok(lines) => {
-                let text = format!("Exported {}; {} things are not in it", path.display(), lines.len());
+                let lost = match lines.len() {
+                    1 => "1 thing is".to_owned(),
+                    count => format!("{count} things are"),
+                };
+                let text = format!("Exported {}; {lost} not in it", path.display());
                 self.report = Some(Report { title: text.clone(), lines });
                 Message::Info(text)
             }

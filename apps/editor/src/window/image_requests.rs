@@ -12,9 +12,12 @@ use super::editor::{Editor, Message};
 use super::images::{RenderFrom, RenderOrder, Rendering, Writing, check_ending, with_ending};
 use super::navigation;
 use crate::request::ImageKind;
+use crate::uv::layout;
 
 const NO_CAMERA: &str = "The scene has no camera, so there is nothing to render through. \
                          Render what the view shows instead, or put a camera into the scene: Add, Camera.";
+
+const NO_COORDINATES: &str = "nothing with texture coordinates is edited: unwrap it first (U)";
 
 impl Editor {
     /// Renders through the scene's camera; without one the window offers the view instead.
@@ -58,6 +61,10 @@ impl Editor {
                 stage.request_image(screenshot_settings(stage));
                 self.images.screenshot = Some(path);
             }
+            (ImageKind::UvLayout, _) => match layout(&self.document) {
+                Some(frame) => self.write(stage, Arc::new(frame), path),
+                None => self.message = Message::Refusal(NO_COORDINATES.into()),
+            },
             (ImageKind::Render, Some(image)) => {
                 let frame = Arc::clone(&image.frame);
                 self.write(stage, frame, path);

@@ -14,7 +14,7 @@ use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
     BevelTool, ExtrudeTool, FaceTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, KnifeTool,
-    LoopCutTool, RegionMode, Tool, ToolState, TransformKind, TransformTool,
+    LoopCutTool, MeasureTool, RegionMode, Tool, ToolState, TransformKind, TransformTool,
 };
 
 impl Editor {
@@ -63,6 +63,7 @@ impl Editor {
             kind => {
                 let mut tool: Box<dyn FaceTool> = match kind {
                     ToolKind::Knife => Box::new(KnifeTool::start(document, hands)?),
+                    ToolKind::Measure => Box::new(MeasureTool::start(document, snap.through, hands)),
                     _ => Box::new(LoopCutTool::start(document, hands)?),
                 };
                 let reach = tool.reach() * view.scale;

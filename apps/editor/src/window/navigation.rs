@@ -44,6 +44,7 @@ impl Editor {
             ViewRequest::Solid(color) => editor.view.solid = color,
             ViewRequest::Render => editor.render_camera(stage),
             ViewRequest::Screenshot => editor.ask_for_image(ImageKind::Screenshot),
+            ViewRequest::UvLayout => editor.ask_for_image(ImageKind::UvLayout),
             ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
             ViewRequest::ToggleOverlays => editor.view.overlays = !editor.view.overlays,
         }

@@ -76,14 +76,14 @@ impl Running {
     /// Whether an input turns or zooms the view in the middle of the tool.
     pub(super) fn leaves_to_camera(&self, input: &Input, hands: Hands) -> bool {
         use ToolKind::{
-            Bevel, BevelVertices, Extrude, ExtrudeIndividual, Inset, Knife, LoopCut, SelectCircle,
+            Bevel, BevelVertices, Extrude, ExtrudeIndividual, Inset, Knife, LoopCut, Measure, SelectCircle,
         };
         match input {
             Input::Pressed(PointerButton::Left) => hands.modifiers.contains(Modifiers::ALT),
             Input::Pressed(PointerButton::Middle) => {
                 let has_no_use = matches!(
                     self.kind,
-                    Extrude | ExtrudeIndividual | Inset | Bevel | BevelVertices | LoopCut | Knife
+                    Extrude | ExtrudeIndividual | Inset | Bevel | BevelVertices | LoopCut | Knife | Measure
                 );
                 has_no_use || hands.modifiers.contains(Modifiers::ALT)
             }

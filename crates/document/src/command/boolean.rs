@@ -16,6 +16,9 @@ use crate::state::{AfterEdit, Change};
 
 const COMMAND: &str = "a boolean";
 
+const NOTHING_LEFT: &str =
+    "nothing is left of the object: look where the objects overlap, or choose another operation";
+
 /// Combines the volume of an object's mesh with those of other objects. In edit mode, the selected faces of each mesh
 /// are the tool, and its other faces are changed: both have to be closed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -88,7 +91,11 @@ impl Boolean {
             Ok(mesh.boolean(&tools, self.operation)?)
         })?;
         self.finish(change, object, &operands, slots);
-        Ok(Outcome::counted("combined with", operands.len(), ["object", "objects"]))
+        let mut outcome = Outcome::counted("combined with", operands.len(), ["object", "objects"]);
+        if change.mesh(mesh).is_some_and(|mesh| mesh.face_count() == 0) {
+            outcome.warnings.push(NOTHING_LEFT.into());
+        }
+        Ok(outcome)
     }
 
     /// The objects with meshes to combine with another one, and their meshes.

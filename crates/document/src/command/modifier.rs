@@ -35,23 +35,9 @@ fn restack(
     let modifiers = change.mesh(id).map_or(&[][..], EditMesh::modifiers);
     let reported = modifiers.iter().zip(&states);
     let words: Vec<String> = reported
-        .filter_map(|(stacked, state)| Some(format!("{}: {}", stacked.modifier.name(), in_words(state)?)))
+        .filter_map(|(stacked, state)| Some(format!("{}: {}", stacked.modifier.name(), state.shortfall()?)))
         .collect();
     Ok(Outcome::with_message(words.join("; ")))
-}
-
-/// What became of a modifier in a view, if not what it says.
-fn in_words(state: &ModifierState) -> Option<String> {
-    match state {
-        ModifierState::Fewer(levels) => {
-            Some(format!("the view shows {levels}, as the mesh is dense; exports have all levels"))
-        }
-        ModifierState::TooDense(faces) => Some(format!(
-            "the view leaves it out, as it could make {faces} faces, too many to follow edits; exports have it"
-        )),
-        ModifierState::Refused(refusal) => Some(format!("left out: {refusal}")),
-        _ => None,
-    }
 }
 
 /// Adds a modifier to the stack of an object's mesh. What is shown and exported is the mesh after all modifiers that are on, in

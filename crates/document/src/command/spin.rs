@@ -12,8 +12,8 @@ use crate::error::EditError;
 use crate::selection::Elements;
 use crate::state::{AfterEdit, Change};
 
-/// Sweeps the selected edges and vertices around an axis in the space of the mesh, in steps; with a height as a screw. What
-/// is at the end is selected.
+/// Sweeps the selected edges and vertices around an axis in the space of the mesh, in steps; with a height as a screw. Faces
+/// close the ends. What is at the end is selected.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Spin {
@@ -53,9 +53,12 @@ impl Action for Spin {
             alone.retain(|vertex| !ends.contains(vertex));
             let made = mesh.spin(&edges, &alone, &settings)?;
             faces += made.faces.len();
-            let is_of_edges = made.vertices.len() == ends.len();
-            let end =
-                if is_of_edges { Elements::Edges(made.edges) } else { Elements::Vertices(made.vertices) };
+            let is_of_edges = alone.is_empty();
+            let end = match is_of_edges {
+                true if !made.ends.is_empty() => Elements::Faces(made.ends),
+                true => Elements::Edges(made.edges),
+                false => Elements::Vertices(made.vertices),
+            };
             Ok(AfterEdit::Select(end))
         })?;
         Ok(Outcome::counted("made", faces, ["face", "faces"]))
@@ -116,7 +119,8 @@ mod tests {
         let mut document = editing_faces(primitives::grid(2.0, 2.0, 1, 1));
         let spin = json!({ "op": "spin", "center": [0, 3, 0], "axis": [1, 0, 0], "angle": 90, "steps": 3 });
         let outcome = try_run(&mut document, spin).expect("possible");
-        assert_eq!((outcome.message.as_str(), edited(&document).face_count()), ("made 12 faces", 13));
+        assert_eq!((outcome.message.as_str(), edited(&document).face_count()), ("made 12 faces", 14));
+        assert!(edited(&document).is_watertight(), "the square closes both ends");
         document.undo().expect("one");
         assert_eq!(edited(&document).face_count(), 1);
         let refused =

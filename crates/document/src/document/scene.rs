@@ -1,7 +1,7 @@
 //! The document's scene for drawing.
 
 use trigon_mesh::Mesh;
-use trigon_modelling::{ElementMap, ElementNumbers, ModifierState};
+use trigon_modelling::{ElementMap, ElementNumbers, Evaluation, ModifierState};
 use trigon_scene::{MeshId, Scene};
 
 use super::Document;
@@ -31,10 +31,10 @@ impl Document {
         scene
     }
 
-    /// What a view shows of the modifiers of a mesh, in the order of its stack; none if it was never edited.
-    pub fn modifier_states(&mut self, id: MeshId) -> Vec<ModifierState> {
-        let State { file, shown, .. } = &mut self.state;
-        shown.evaluate(id, &file.native.scene, &file.edited).states().cloned().collect()
+    /// What a view shows of the modifiers of a mesh, in the order of its stack, as of the last [`Self::scene`]; none if it was
+    /// never edited.
+    pub fn modifier_states(&self, id: MeshId) -> impl Iterator<Item = &ModifierState> {
+        self.state.shown.evaluation(id).into_iter().flat_map(Evaluation::states)
     }
 
     /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this

@@ -124,3 +124,26 @@ fn in_edit_mode_the_selected_part_is_the_tool() {
     let error = try_run(&mut document, json!({ "op": "boolean" })).expect_err("one face is open");
     assert!(error.to_string().contains("hole"), "{error}");
 }
+
+/// Objects vanished without a word.
+#[test]
+fn a_boolean_that_leaves_nothing_says_so() {
+    for (operation, objects, warnings) in [
+        ("difference", ["body", "cover"], 1),
+        ("intersection", ["body", "far"], 1),
+        ("union", ["body", "far"], 0),
+    ] {
+        let mut scene = Scene::new();
+        for (name, edge, x) in [("body", 1.0, 0.0), ("cover", 2.0, 0.0), ("far", 1.0, 5.0)] {
+            let node = scene.add_object(name, primitives::cube(edge), Material::default());
+            scene.node_mut(node).expect("there").transform =
+                Transform::from_translation(DVec3::new(x, 0.0, 0.0));
+        }
+        let mut document = Document::new(scene);
+        let [object, tool] = objects;
+        let boolean = json!({ "op": "boolean", "operation": operation, "object": object, "objects": [tool] });
+        let outcome = try_run(&mut document, boolean).expect("all are closed");
+        let count = outcome.warnings.iter().filter(|warning| warning.contains("nothing is left")).count();
+        assert_eq!(count, warnings, "{operation}: {:?}", outcome.warnings);
+    }
+}

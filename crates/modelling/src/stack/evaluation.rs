@@ -24,6 +24,23 @@ pub enum ModifierState {
     Refused(Refusal),
 }
 
+impl ModifierState {
+    /// What a view does not show of the modifier, and why, in words; `None` if it shows all that is on.
+    #[must_use]
+    pub fn shortfall(&self) -> Option<String> {
+        match self {
+            Self::Shown | Self::Off => None,
+            Self::Fewer(levels) => {
+                Some(format!("the view shows {levels}, as the mesh is dense; exports have all levels"))
+            }
+            Self::TooDense(faces) => Some(format!(
+                "the view leaves it out, as it could make {faces} faces, too many to follow edits; exports have it"
+            )),
+            Self::Refused(refusal) => Some(format!("left out: {refusal}")),
+        }
+    }
+}
+
 /// The mesh after the modifiers that are on, evaluated live: each result is retained until the mesh changes, or the stack up
 /// to it.
 #[derive(Debug, Clone, Default)]

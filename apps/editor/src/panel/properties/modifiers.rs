@@ -28,13 +28,15 @@ pub(super) fn modifiers(ui: &mut Ui, shown: ShownObject<'_>, requests: &mut Vec<
         }
     });
     let stack = node.mesh.and_then(|mesh| document.mesh(mesh)).map_or(&[][..], |mesh| mesh.modifiers());
+    let states: Vec<_> = node.mesh.map_or_else(Vec::new, |mesh| document.modifier_states(mesh).collect());
     for (index, stacked) in stack.iter().enumerate() {
         ui.push_id(index, |ui| {
             ui.separator();
             if let Some(command) = header(ui, &object, stacked, index, stack.len()) {
                 run(command);
             }
-            if let Some(text) = missing(shown, &stacked.modifier) {
+            let shortfall = || states.get(index).and_then(|state| state.shortfall());
+            if let Some(text) = missing(shown, &stacked.modifier).or_else(shortfall) {
                 ui.colored_label(ui.visuals().warn_fg_color, text);
             }
             if let Some(modifier) = changed(ui, shown, stacked, index) {

@@ -219,6 +219,7 @@ impl Tool for TransformTool {
             lines: Axis::ALL.into_iter().filter(free).map(line).collect(),
             circle: self.proportional().map(|near| (pivot, near.radius)),
             point: self.snapped.filter(|_| self.snaps()),
+            ..ToolMarks::default()
         }
     }
 }

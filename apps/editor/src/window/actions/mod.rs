@@ -89,7 +89,7 @@ pub(crate) fn named(name: &str) -> Option<&'static Action> {
 }
 
 /// The tools of the bar on the left, by the names of their actions.
-const TOOLS: [(&str, Icon); 13] = [
+const TOOLS: [(&str, Icon); 14] = [
     ("select.box", Icon::SelectBox),
     ("select.circle", Icon::SelectCircle),
     ("select.lasso", Icon::SelectLasso),
@@ -103,6 +103,7 @@ const TOOLS: [(&str, Icon); 13] = [
     ("mesh.knife", Icon::Knife),
     ("mesh.edge_slide", Icon::Slide),
     ("tool.shrink_fatten", Icon::ShrinkFatten),
+    ("view.measure", Icon::Measure),
 ];
 
 /// A tool that has a button.

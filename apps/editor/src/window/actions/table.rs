@@ -58,9 +58,9 @@ actions! {
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
-    "Edit/Boolean" "boolean.union" "Union" "" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
-    "Edit/Boolean" "boolean.difference" "Difference" "" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
-    "Edit/Boolean" "boolean.intersection" "Intersection" "" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
+    "Edit/Boolean" "boolean.union" "Union" "Ctrl+Numpad+" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
+    "Edit/Boolean" "boolean.difference" "Difference" "Ctrl+Numpad-" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
+    "Edit/Boolean" "boolean.intersection" "Intersection" "Ctrl+Numpad*" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
     "Edit/Parent" "parent.menu" "Parent Menu" "Ctrl+P" Objects Ui(UiRequest::Popup("Edit/Parent")) => "Chooses how objects hang on the active one.";
     "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: true }) => "Hangs the selected objects on the active one; they stay where they are.";
     "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";
@@ -122,7 +122,7 @@ actions! {
     "Add" "add.cone" "Cone" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"cone","radius":1.0,"height":2.0,"segments":32}}"#) => "Adds a cone.";
     "Add" "add.torus" "Torus" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"torus","major_radius":1.0,"minor_radius":0.25,"major_segments":48,"minor_segments":12}}"#) => "Adds a ring.";
     "Add" "add.grid" "Grid" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"grid","width":2.0,"depth":2.0,"columns":10,"rows":10}}"#) => "Adds a plane of many quads.";
-    "Add" "add.disc" "Disc" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"disc","radius":1.0,"segments":32}}"#) => "Adds a disc.";
+    "Add" "add.disc" "Disc" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"disc","radius":1.0,"segments":32}}"#) => "Adds a disc: a filled circle.";
     "Add" "add.pyramid" "Pyramid" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"pyramid","edge":2.0,"height":2.0}}"#) => "Adds a pyramid.";
     "Add" "add.teapot" "Teapot" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"teapot","subdivisions":8}}"#) => "Adds Newell's teapot.";
     "Add" "add.empty" "Empty" "" ObjectMode Run(r#"{"op":"add_empty"}"#) => "Adds an empty object, as a parent for others.";
@@ -260,6 +260,7 @@ actions! {
     "UV" "uv.view" "From View" "" Elements Ui(UiRequest::ProjectFromView) => "Projects texture coordinates in the direction of the view, as large as the selection.";
     "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
     "UV" "uv.follow" "Follow Active Quad" "" Elements Run(r#"{"op":"follow_active_quad"}"#) => "Lays the selected quads beside the active one, as rows and columns.";
+    "UV" "uv.layout" "Save UV Layout…" "" EditMode View(ViewRequest::UvLayout) => "Writes the outlines of faces as an image, to be painted over in another program.";
     "UV" "uv.pack" "Pack Islands" "" Elements Run(r#"{"op":"pack_islands"}"#) => "Arranges islands of texture coordinates in the image, in even scale.";
     "View" "view.frame_selected" "Frame Selected" "Numpad." Nothing View(ViewRequest::FrameSelected) => "Frames the selection.";
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Frames the whole scene.";
@@ -299,6 +300,7 @@ actions! {
     "View/Display" "display.toggle_wireframe" "Toggle Wireframe" "Shift+Z" Nothing View(ViewRequest::ToggleWireframe) => "Switches between wireframe and the previous mode.";
     "View" "view.x_ray" "X-Ray" "Alt+Z" Nothing View(ViewRequest::ToggleXRay) => "Shows and selects elements behind faces, too.";
     "View" "view.overlays" "Overlays" "Alt+Shift+Z" Nothing View(ViewRequest::ToggleOverlays) => "Shows or hides grid, axes, lights, cameras and the gizmo.";
+    "View" "view.measure" "Measure" "" Nothing Tool(ToolKind::Measure) => "Shows distances and angles between points that are clicked.";
     "View" "view.render" "Render Image" "F12" Nothing View(ViewRequest::Render) => "Renders what the scene's camera sees, to be saved as a file.";
     "View" "view.screenshot" "Save Screenshot…" "" Nothing View(ViewRequest::Screenshot) => "Writes the view to an image file, without the grid, the gizmo and the panels.";
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";

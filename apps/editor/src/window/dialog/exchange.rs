@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use trigon_document::Document;
-use trigon_document::scene::NodeId;
+use trigon_document::scene::{NodeId, Scene};
 use trigon_io::{Format, UpAxis, writers};
 use trigon_window::egui;
 use trigon_window::egui::{ComboBox, Ui};
@@ -19,6 +19,8 @@ use crate::panel::written;
 pub(crate) struct Exchange {
     /// How large what can be exported is.
     pub(crate) extents: Extents,
+    /// The same without modifiers.
+    pub(crate) edited_extents: Extents,
     /// In files that are opened and imported; none for that of their format.
     pub(crate) import_up: Option<UpAxis>,
     pub(crate) export: ExportChoices,
@@ -32,12 +34,10 @@ pub(crate) struct Extents {
 }
 
 impl Extents {
-    /// Of the visible objects: all of them, and those that are selected with what hangs on them.
-    pub(crate) fn of(document: &mut Document) -> Self {
-        let selected: Vec<NodeId> = document.selection().objects.iter().copied().collect();
-        let scene = document.scene_to_render();
+    /// Of the visible objects of a scene: all of them, and those that are selected with what hangs on them.
+    fn of(scene: &Scene, selected: &[NodeId]) -> Self {
         let size = |bounds: Bounds3| (!bounds.is_empty()).then(|| bounds.size());
-        let of_selected = selected.into_iter().flat_map(|id| scene.visible_points_below(id));
+        let of_selected = selected.iter().flat_map(|&id| scene.visible_points_below(id));
         Self {
             all: size(Bounds3::from_points(scene.visible_points())),
             selected: size(Bounds3::from_points(of_selected)),
@@ -51,9 +51,7 @@ const UNITS: [(&str, f64); 4] =
 
 impl Default for Exchange {
     fn default() -> Self {
-        let export =
-            ExportChoices { up: None, scale: 1.0, selection_only: false, triangulate: false, text: false };
-        Self { extents: Extents::default(), import_up: None, export }
+        Self::new(&Arguments::default())
     }
 }
 
@@ -61,7 +59,15 @@ impl Exchange {
     /// The choices of the command line.
     pub(crate) fn new(arguments: &Arguments) -> Self {
         let export = ExportChoices::new(arguments);
-        Self { extents: Extents::default(), import_up: arguments.import_up, export }
+        let [extents, edited_extents] = [Extents::default(); 2];
+        Self { extents, edited_extents, import_up: arguments.import_up, export }
+    }
+
+    /// Measures what can be exported.
+    pub(crate) fn measure(&mut self, document: &mut Document) {
+        let selected: Vec<NodeId> = document.selection().objects.iter().copied().collect();
+        self.extents = Extents::of(&document.scene_to_render(), &selected);
+        self.edited_extents = Extents::of(document.scene(), &selected);
     }
 
     /// For files that are read.
@@ -78,6 +84,7 @@ impl Exchange {
         ui.add(egui::Label::new(held_by(format)).wrap());
         ui.horizontal_wrapped(|ui| {
             ui.checkbox(&mut self.export.selection_only, "Selection only");
+            ui.checkbox(&mut self.export.modifiers, "Apply modifiers");
             if has_polygons(format) {
                 ui.checkbox(&mut self.export.triangulate, "Triangulate");
             }
@@ -92,7 +99,8 @@ impl Exchange {
 
     /// How large things will be in the file, in its numbers.
     fn show_size(&self, ui: &mut Ui, format: Format) {
-        let Extents { all, selected } = self.extents;
+        let Extents { all, selected } =
+            if self.export.modifiers { self.extents } else { self.edited_extents };
         let extent = if self.export.selection_only { selected } else { all };
         let Some(size) = extent.map(|extent| extent * self.export.scale) else { return };
         let up = self.export.up.unwrap_or_else(|| format.up());
@@ -189,8 +197,11 @@ mod tests {
         for command in commands {
             document.run(serde_json::from_str(command).expect("a command")).expect("it can be done");
         }
-        let Extents { all, selected } = Extents::of(&mut document);
+        let mut exchange = Exchange::default();
+        exchange.measure(&mut document);
+        let Extents { all, selected } = exchange.extents;
         assert_eq!(all, Some(DVec3::new(6.0, 2.0, 2.0)), "three cubes");
+        assert_eq!(exchange.edited_extents.all, Some(DVec3::splat(2.0)), "and one without the modifier");
         assert_eq!(selected, all, "the new object is selected");
     }
 }

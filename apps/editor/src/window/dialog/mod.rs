@@ -14,7 +14,7 @@ use trigon_io::readers;
 use trigon_window::egui::{Align, Button, Context, Id, Key, Layout, Modal, Popup, ScrollArea, TextEdit, Ui};
 use trigon_window::{RecentFiles, egui};
 
-pub(crate) use exchange::{Exchange, Extents};
+pub(crate) use exchange::Exchange;
 use folder::Folder;
 
 use super::images;
@@ -75,6 +75,7 @@ impl Purpose {
             Self::Texture(..) => "Open Image",
             Self::Image(ImageKind::Screenshot) => "Save Screenshot",
             Self::Image(ImageKind::Render) => "Save Image",
+            Self::Image(ImageKind::UvLayout) => "Save UV Layout",
         }
     }
 

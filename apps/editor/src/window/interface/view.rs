@@ -2,7 +2,7 @@
 //! and gestures.
 
 use trigon_document::scene::Region;
-use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};
+use trigon_window::egui::{Color32, FontId, Painter, Rect, Shape, Stroke, Ui, Vec2, vec2};
 use trigon_window::scene::camera::Viewport;
 use trigon_window::{Pane, Stage};
 
@@ -20,6 +20,8 @@ use crate::window::panes::{draw_border, draw_name, name_of};
 const INK: Color32 = Color32::from_rgb(255, 240, 120);
 /// What something snapped to, in points.
 const SNAPPED: f32 = 7.0;
+/// From a point to the text beside it, in points.
+const BESIDE: Vec2 = vec2(14.0, 10.0);
 
 /// Draws it, before the panels: they lie over it.
 pub(super) fn show_view(ui: &Ui, editor: &mut Editor, stage: &Stage) {
@@ -94,6 +96,14 @@ fn draw_marks(painter: &Painter, view: &OverlayView, marks: &ToolMarks) {
     }
     if let Some(at) = marks.point.and_then(|point| view.point(point)) {
         painter.add(Shape::circle_stroke(at, SNAPPED, stroke));
+    }
+    if let Some(label) = &marks.label
+        && let Some(at) = view.point(label.at)
+    {
+        let galley = painter.layout_no_wrap(label.text.clone(), FontId::proportional(13.0), INK);
+        let area = Rect::from_min_size(at + BESIDE, galley.size());
+        painter.rect_filled(area.expand(4.0), 4.0, Color32::from_black_alpha(180));
+        painter.galley(area.min, galley, INK);
     }
 }
 

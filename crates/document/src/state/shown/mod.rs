@@ -126,6 +126,11 @@ impl Shown {
         evaluation
     }
 
+    /// A mesh after its modifiers, as of the last update.
+    pub(crate) fn evaluation(&self, id: MeshId) -> Option<&Evaluation> {
+        self.evaluations.get(&id)
+    }
+
     /// The scene's mesh must be rebuilt.
     pub(crate) fn note_mesh(&mut self, id: MeshId) {
         self.forget_evaluation(id);

@@ -1,5 +1,6 @@
 //! Spinning: edges and vertices are swept around an axis, in steps.
 
+mod faces;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -10,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_math::{DMat3, DVec3, elementary};
 
+use self::faces::SweptFaces;
 use self::sweep::Sweep;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
@@ -51,6 +53,8 @@ pub struct Spun {
     pub edges: Vec<EdgeId>,
     /// The vertices there.
     pub vertices: Vec<VertexId>,
+    /// The faces there, if faces were swept and the ends are not joined.
+    pub ends: Vec<FaceId>,
 }
 
 /// Settings that have been checked.
@@ -129,7 +133,12 @@ impl EditMesh {
     /// Sweeps edges and vertices around an axis: each edge makes a quad in each step, each other vertex an edge. With a
     /// height this is a screw.
     ///
-    /// The given elements stay where they are and are the beginning. Without a height, vertices on the axis stay single, so
+    /// Faces all of whose edges are given are swept as a whole: only their outline makes faces, and they close both ends. Those
+    /// that are a part of a larger surface leave it, so that it goes on along the sweep; others stay as the beginning, and all
+    /// faces then look outwards. If the ends are joined, they are removed. Faces of closed surfaces have no outline: each of their
+    /// edges is swept.
+    ///
+    /// Other given elements stay where they are and are the beginning. Without a height, vertices on the axis stay single, so
     /// that edges there make triangles; a vertex is on the axis if it is nearer than a millionth of the farthest one. New
     /// faces at an open border continue its face and have its values; others are wound like each other, so that they look
     /// away from the axis on the whole. New vertices have the values of the given ones, and new edges their marks.
@@ -164,8 +173,20 @@ impl EditMesh {
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         let turns = settings.check()?;
-        let sweep = Sweep::of(self, edges, vertices, &turns)?;
-        self.check_capacity_for(sweep.new_elements(&turns))?;
-        Ok(sweep.run(self, &turns))
+        let swept = SweptFaces::of(self, edges);
+        let (edges, vertices) = swept.outlines(edges, vertices);
+        let sweep = Sweep::of(self, &edges, &vertices, &turns)?;
+        self.check_capacity_for(sweep.new_elements(&turns).and(swept.new_elements(self)))?;
+        if swept.is_empty() {
+            return Ok(sweep.run(self, &turns));
+        }
+        let copy = swept.open(self, &turns);
+        // Where faces went, the new ones continue others.
+        let sweep = Sweep::of(self, &edges, &vertices, &turns)?;
+        let mut spun = sweep.run(self, &turns);
+        if !turns.is_joined {
+            swept.close(self, &copy, &turns, &sweep, &mut spun);
+        }
+        Ok(spun)
     }
 }

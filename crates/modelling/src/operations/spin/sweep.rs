@@ -103,6 +103,11 @@ impl Sweep {
         }
     }
 
+    /// The number of a vertex among those that are swept, which is its number at the end, too.
+    pub(super) fn number(&self, vertex: VertexId) -> Option<usize> {
+        self.vertices.binary_search(&vertex).ok()
+    }
+
     /// How many elements there will be more.
     pub(super) fn new_elements(&self, turns: &Turns) -> NewElements {
         let (steps, vertices, sides) =

@@ -82,3 +82,31 @@ fn a_bevel_obeys_its_keys_and_its_panel_keeps_them() {
     ",
     );
 }
+
+/// The default cube: an edge of 2 m, and the right angle at its end.
+#[test]
+fn clicks_measure_lengths_and_angles_and_change_nothing() {
+    play(
+        "
+        press Measure
+        click 1 1 1
+        see Measure: 
+        hover -1 1 1
+        see 2.0000 m
+        click -1 1 1
+        hover -1 -1 1
+        see 2.0000 m, 90.00°, 4.0000 m in all
+        keys Backspace
+        see 2.8284 m. Click         # across the face: the square root of 8
+        keys Escape
+        mesh Cube 8 12 6
+        title untitled - trigon
+        keys Tab
+        press Measure
+        click 1 1 1
+        hover 1 1 -1
+        see 2.0000 m
+        keys Escape
+    ",
+    );
+}

@@ -2,7 +2,9 @@
 //! text with one action in each line, as `script` describes; what it asserts is what its user would see.
 
 mod bottle;
+mod bracket;
 mod chair;
+mod crate_box;
 mod elements;
 mod habits;
 mod house;
@@ -10,6 +12,8 @@ mod light;
 mod mug;
 mod newcomer;
 mod script;
+mod slats;
+mod spring;
 mod table;
 mod tour;
 
