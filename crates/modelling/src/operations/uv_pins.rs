@@ -83,6 +83,21 @@ mod tests {
         assert!(cube == before, "nothing was done");
     }
 
+    /// The first pin adds only a layer; the history left such changes out, so that they were never undone.
+    #[test]
+    fn what_only_adds_a_layer_is_a_change() {
+        let (mut mesh, _) = EditMesh::from_mesh(&primitives::grid(2.0, 2.0, 2, 1));
+        let sets = mesh.uv_set_count();
+        let corners = all_corners(&mesh);
+        let first = mesh.clone();
+        let ((), mut added) = mesh.transaction(|mesh| mesh.add_uv_set(sets)).expect("room");
+        let (_, mut pinned) = mesh.transaction(|mesh| mesh.pin_uvs(sets, &corners)).expect("they exist");
+        assert!(!added.is_empty() && !pinned.is_empty(), "both changed something");
+        pinned.apply(&mut mesh);
+        added.apply(&mut mesh);
+        assert!(mesh == first && !added.is_empty() && !pinned.is_empty(), "and still do");
+    }
+
     /// What copies corners copies their pins; between a pinned corner and a free one nothing is pinned.
     #[test]
     fn operations_carry_pins() {
