@@ -227,6 +227,12 @@ fn operations() -> Vec<Operation> {
         operation("project_uvs_sphere", Some("face", 3), |r, _| json!({ "axis": (vector(r)) })),
         operation("unwrap", Some("face", 3), |r, _| json!({ "minimize_stretch": r.below(3) })),
         operation("smart_project", Some("face", 5), |r, _| json!({ "angle_limit": r.between(5.0, 89.0) })),
+        operation("pin_uvs", Some("face", 2), |_, at| {
+            let is_pinned =
+                |mesh: &EditMesh, face| mesh.face_corners(face).all(|at| mesh.is_uv_pinned(0, at));
+            json!({ "pinned": (!at.face(is_pinned)) })
+        }),
+        operation("stitch_uvs", Some("edge", 5), |r, _| json!({ "at_midpoints": r.below(2) == 0 })),
         operation("pack_islands", Some("face", 5), |r, _| json!({ "rotate": r.below(2) == 0 })),
         operation("repair", Some("face", 1), |_, _| json!({ "zero_length": 0.3, "zero_area": 0.05 })),
         operation(

@@ -52,6 +52,8 @@ fn command() -> impl Strategy<Value = Value> {
         json!({"op": "add_camera"}),
         json!({"op": "add_material"}),
         json!({"op": "mark_seam"}),
+        json!({"op": "smart_project"}),
+        json!({"op": "pin_uvs"}),
         json!({"op": "mark_sharp"}),
         json!({"op": "shade", "smooth": true}),
         json!({"op": "subdivide"}),

@@ -124,6 +124,8 @@ pub struct EditData {
     pub hidden_faces: Vec<u32>,
     /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
     pub sharp_corners: Vec<u32>,
+    /// Corners whose texture coordinates are pinned in any set: the corner, and one bit for each set, from the lowest.
+    pub pinned_corners: Vec<[u32; 2]>,
     /// The stack of modifiers that the mesh is shown with, as text that `trigon-modelling` reads and writes; empty without
     /// any.
     pub modifiers: String,

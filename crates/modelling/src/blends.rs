@@ -107,6 +107,7 @@ impl Layer {
             }
             (LayerValues::Vec4(column), _) => write(column, blends, |value, _| value),
             (LayerValues::Influences(column), _) => write(column, blends, |value, _| value),
+            (LayerValues::Pins(column), _) => write(column, blends, |value, _| value),
         }
     }
 }

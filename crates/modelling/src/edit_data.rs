@@ -1,5 +1,5 @@
 //! The data of an editable mesh that a [`Mesh`] does not have, as [`EditData`]: original positions, marks of
-//! edges, hidden elements, modifiers. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
+//! edges, hidden elements, pins, modifiers. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
 //! holds both loses nothing.
 
 use thiserror::Error;
@@ -39,6 +39,9 @@ pub enum EditDataError {
     /// There is no such corner.
     #[error("corner {0} has a normal made by sharp edges and does not exist")]
     NoSuchCorner(u32),
+    /// There is no such corner.
+    #[error("the texture coordinates of corner {0} are pinned and it does not exist")]
+    NoSuchPinnedCorner(u32),
     /// The modifiers are not as they are written, or out of their ranges; the reason.
     #[error("the modifiers cannot be read: {0}")]
     Modifiers(String),
@@ -63,6 +66,7 @@ impl EditMesh {
             hidden_vertices: hidden_vertices.map(|(index, _)| index).collect(),
             hidden_faces: hidden_faces.map(|(index, _)| index).collect(),
             sharp_corners: self.sharp_corners(map),
+            pinned_corners: self.pinned_corners(map),
             modifiers: self.modifiers_as_text(),
         }
     }
@@ -74,6 +78,23 @@ impl EditMesh {
             of_fans[corner.0 as usize] != Vec3::ZERO && self.custom_normal(corner).is_none()
         };
         (0u32..).zip(&map.corners).filter(|(_, corner)| is_made(**corner)).map(|(index, _)| index).collect()
+    }
+
+    /// The corners of the mesh of [`EditMesh::to_mesh`] with pins, and the sets.
+    fn pinned_corners(&self, map: &ElementMap) -> Vec<[u32; 2]> {
+        let Some(pins) = self.pins() else { return Vec::new() };
+        let numbered = (0u32..).zip(map.corners.iter().map(|corner| pins[corner.0].0));
+        numbered.filter(|(_, sets)| *sets != 0).map(|(corner, sets)| [corner, sets]).collect()
+    }
+
+    fn set_pinned_corners(&mut self, pinned: &[[u32; 2]]) -> Result<(), EditDataError> {
+        for &[index, sets] in pinned {
+            if !self.has_corner(CornerId(index)) {
+                return Err(EditDataError::NoSuchPinnedCorner(index));
+            }
+            self.pins_mut().write(index).0 = sets;
+        }
+        Ok(())
     }
 
     /// Takes away normals that were not given, and all of them if none was.
@@ -161,6 +182,7 @@ impl EditMesh {
             editable.set_face_hidden(face, true);
         }
         editable.clear_sharp_corners(&data.sharp_corners)?;
+        editable.set_pinned_corners(&data.pinned_corners)?;
         editable.modifiers = modifiers_of_text(&data.modifiers)?;
         // Faces and corners were named by their numbers until here.
         left_out.cut_faces = editable.make_all_simple();
@@ -247,6 +269,9 @@ mod tests {
         for face in mesh.faces().collect::<Vec<_>>() {
             mesh.set_face_hidden(face, is_chosen(face.0, 6));
         }
+        for corner in mesh.corners().collect::<Vec<_>>() {
+            mesh.set_uv_pinned((corner.0 % 32) as usize, corner, is_chosen(corner.0, 7));
+        }
         mesh
     }
 
@@ -286,6 +311,7 @@ mod tests {
         assert_eq!(refused(edge([0, u32::MAX])), EditDataError::NoSuchEdge([0, u32::MAX]), "no such vertex");
         refused(EditData { hidden_vertices: vec![8], ..EditData::default() });
         refused(EditData { hidden_faces: vec![6], ..EditData::default() });
+        refused(EditData { pinned_corners: vec![[24, 1]], ..EditData::default() });
         let surface = |levels: u32| {
             format!(r#"[{{"modifier":{{"kind":"subdivision","levels":{levels}}},"is_on":true}}]"#)
         };

@@ -219,7 +219,8 @@ impl EditMesh {
 /// The corners with other values; `None` where the shown mesh cannot be given them.
 fn changed_corners(layer: &Layer, difference: &LayerDifference) -> Option<Vec<CornerId>> {
     let found = match (&layer.values, difference, layer.kind) {
-        (_, LayerDifference::Unchanged, _) => Vec::new(),
+        // Pins are not in the shown mesh.
+        (_, LayerDifference::Unchanged, _) | (LayerValues::Pins(_), ..) => Vec::new(),
         (LayerValues::Vec2(column), LayerDifference::Vec2(difference), _) => column
             .differing(difference, |a: &Vec2, b| {
                 a.to_array().map(f32::to_bits) != b.to_array().map(f32::to_bits)

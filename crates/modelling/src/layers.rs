@@ -1,5 +1,5 @@
-//! The values of vertices and corners besides positions: texture coordinates, colours, normals, skin
-//! weights, morph targets.
+//! The values of vertices and corners besides positions: texture coordinates and their pins, colours, normals,
+//! skin weights, morph targets.
 
 use trigon_math::{DVec2, DVec3, DVec4, Vec2, Vec3, Vec4};
 
@@ -11,6 +11,8 @@ use super::skin::Influences;
 pub(super) enum LayerKind {
     /// Texture coordinates; sets count in the order of their layers. On corners.
     Uv,
+    /// In which sets texture coordinates are pinned. On corners; there is no such layer before the first pin.
+    Pins,
     /// Linear light, straight alpha. On corners, which faces show, and on vertices, which loose edges and
     /// points show.
     Color,
@@ -41,7 +43,12 @@ pub(super) enum LayerValues {
     Vec3(Column<Vec3>),
     Vec4(Column<Vec4>),
     Influences(Column<Influences>),
+    Pins(Column<Pins>),
 }
+
+/// The sets of texture coordinates in which a corner is pinned: one bit for each, from the lowest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Pins(pub(super) u32);
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum LayerDifference {
@@ -50,6 +57,7 @@ pub(super) enum LayerDifference {
     Vec3(ColumnDifference<Vec3>),
     Vec4(ColumnDifference<Vec4>),
     Influences(ColumnDifference<Influences>),
+    Pins(ColumnDifference<Pins>),
 }
 
 /// Runs the same expression for the column of any type.
@@ -60,6 +68,7 @@ macro_rules! for_column {
             LayerValues::Vec3($column) => $body,
             LayerValues::Vec4($column) => $body,
             LayerValues::Influences($column) => $body,
+            LayerValues::Pins($column) => $body,
         }
     };
 }
@@ -90,6 +99,14 @@ impl Blend for Vec4 {
 impl Blend for Influences {
     fn blend(parts: &[(Self, f64)]) -> Self {
         Self::blended(parts)
+    }
+}
+
+impl Blend for Pins {
+    /// Between corners of which one is free, a corner is free.
+    fn blend(parts: &[(Self, f64)]) -> Self {
+        let counted = parts.iter().filter(|(_, weight)| *weight != 0.0).map(|(pins, _)| pins.0);
+        Self(counted.reduce(|all, pins| all & pins).unwrap_or(0))
     }
 }
 
@@ -173,6 +190,7 @@ impl Layer {
             }
             LayerValues::Vec4(column) => blend_column(column, parts, to),
             LayerValues::Influences(column) => blend_column(column, parts, to),
+            LayerValues::Pins(column) => blend_column(column, parts, to),
         }
     }
 
@@ -201,6 +219,7 @@ impl Layer {
             LayerValues::Vec3(column) => column.finish().map(LayerDifference::Vec3),
             LayerValues::Vec4(column) => column.finish().map(LayerDifference::Vec4),
             LayerValues::Influences(column) => column.finish().map(LayerDifference::Influences),
+            LayerValues::Pins(column) => column.finish().map(LayerDifference::Pins),
         }
         .unwrap_or(LayerDifference::Unchanged)
     }
@@ -214,6 +233,7 @@ impl Layer {
             (LayerValues::Influences(column), LayerDifference::Influences(difference)) => {
                 column.swap(difference);
             }
+            (LayerValues::Pins(column), LayerDifference::Pins(difference)) => column.swap(difference),
             _ => unreachable!("a difference is applied to the layer that it came from"),
         }
     }
@@ -285,6 +305,7 @@ impl LayerDifference {
             Self::Vec3(difference) => difference.bytes(),
             Self::Vec4(difference) => difference.bytes(),
             Self::Influences(difference) => difference.bytes(),
+            Self::Pins(difference) => difference.bytes(),
         }
     }
 }

@@ -159,7 +159,7 @@ impl EditMesh {
                     morph_target(&mut attributes, number).tangents = values;
                 }
                 (LayerValues::Vec3(column), _) => attributes.corner_normals = Some(of_corners(map, column)),
-                (LayerValues::Influences(_), _) => {}
+                (LayerValues::Influences(_) | LayerValues::Pins(_), _) => {}
             }
         }
         attributes

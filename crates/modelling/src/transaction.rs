@@ -40,6 +40,8 @@ pub(super) struct LayersDifference {
     pub(super) common: Vec<LayerDifference>,
     /// Those that the state without them has not.
     pub(super) added: Vec<Layer>,
+    /// Whether there are any, although they are with the mesh.
+    adds_any: bool,
 }
 
 impl EditMesh {
@@ -150,6 +152,7 @@ impl Recording {
         let layers = |layers: &mut [Layer], common: usize| LayersDifference {
             common: layers[..common].iter_mut().map(Layer::finish).collect(),
             added: Vec::new(),
+            adds_any: layers.len() > common,
         };
         Difference {
             vertices: mesh.vertices.finish(),
@@ -177,7 +180,7 @@ impl EditMesh {
 
 impl Difference {
     fn none(slots: AllSlots) -> Self {
-        let none = || LayersDifference { common: Vec::new(), added: Vec::new() };
+        let none = || LayersDifference { common: Vec::new(), added: Vec::new(), adds_any: false };
         Self {
             vertices: None,
             positions: None,
@@ -280,7 +283,7 @@ impl LayersDifference {
     /// Whether both states have the same layers with the same values.
     pub(super) fn is_empty(&self) -> bool {
         let is_unchanged = |layer: &LayerDifference| matches!(layer, LayerDifference::Unchanged);
-        self.added.is_empty() && self.common.iter().all(is_unchanged)
+        !self.adds_any && self.common.iter().all(is_unchanged)
     }
 
     fn bytes(&self) -> usize {

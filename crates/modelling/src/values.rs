@@ -3,9 +3,10 @@
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
+use super::column::Column;
 use super::edit_mesh::EditMesh;
 use super::ids::{CornerId, EdgeId, FaceId, VertexId};
-use super::layers::{LayerKind, LayerValues};
+use super::layers::{Layer, LayerKind, LayerValues, Pins};
 use super::records::{HIDDEN, SEAM, SHARP, SMOOTH};
 
 /// Sets or clears one flag.
@@ -125,6 +126,44 @@ impl EditMesh {
         if let Some(LayerValues::Vec2(column)) = sets.nth(set).map(|layer| &mut layer.values) {
             *column.write(corner.0) = uv;
         }
+    }
+
+    /// Whether the texture coordinates of a corner are pinned in a set: unwrapping leaves them where they are.
+    #[must_use]
+    pub fn is_uv_pinned(&self, set: usize, corner: CornerId) -> bool {
+        set < Self::MOST_PINNED_SETS && self.pins().is_some_and(|pins| pins[corner.0].0 >> set & 1 != 0)
+    }
+
+    /// Pins the texture coordinates of a corner in a set, or frees them; nothing happens from the set
+    /// [`Self::MOST_PINNED_SETS`] on.
+    pub fn set_uv_pinned(&mut self, set: usize, corner: CornerId, is_pinned: bool) {
+        if set < Self::MOST_PINNED_SETS && self.is_uv_pinned(set, corner) != is_pinned {
+            set_flag(&mut self.pins_mut().write(corner.0).0, 1 << set, is_pinned);
+        }
+    }
+
+    /// In how many sets of texture coordinates corners can be pinned.
+    pub const MOST_PINNED_SETS: usize = 32;
+
+    /// The pins by corner, if there were ever any.
+    pub(super) fn pins(&self) -> Option<&Column<Pins>> {
+        self.corner_layers.iter().find_map(|layer| match &layer.values {
+            LayerValues::Pins(column) => Some(column),
+            _ => None,
+        })
+    }
+
+    /// The same for writing: the layer is added where it is missing.
+    pub(super) fn pins_mut(&mut self) -> &mut Column<Pins> {
+        if self.pins().is_none() {
+            let values = LayerValues::Pins(Column::new(vec![Pins::default(); self.corner_capacity()]));
+            self.corner_layers.push(Layer { kind: LayerKind::Pins, values });
+        }
+        let found = self.corner_layers.iter_mut().find_map(|layer| match &mut layer.values {
+            LayerValues::Pins(column) => Some(column),
+            _ => None,
+        });
+        found.expect("it was added")
     }
 
     /// The colour of a corner: linear light, straight alpha; `None` where the mesh has no colours.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Action, Outcome};
-use trigon_modelling::{EditMesh, FaceId};
+use trigon_modelling::{EditMesh, FaceId, UnwrapSettings};
 
 use crate::error::EditError;
 use crate::selection::{ElementKind, Elements};
@@ -50,22 +50,42 @@ impl Action for MarkSharp {
 pub struct MarkSeam {
     /// Whether the mark is set.
     pub seam: bool,
+    /// Marks edges whose faces meet at more than this angle in degrees, and clears the others.
+    pub angle: Option<f64>,
+    /// Whether all faces in view of the mesh are unwrapped again, in the first set of texture coordinates.
+    pub live_unwrap: bool,
 }
 
 impl Default for MarkSeam {
     fn default() -> Self {
-        Self { seam: true }
+        Self { seam: true, angle: None, live_unwrap: false }
     }
 }
 
 impl Action for MarkSeam {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let mut count = 0;
+        let (mut count, mut warnings) = (0, Vec::new());
         change.edit_selected_edges("marking seams", EDGES, |mesh, edges| {
-            count += if self.seam { mesh.mark_seams(edges)? } else { mesh.clear_seams(edges)? };
+            count += match self.angle {
+                Some(angle) => mesh.mark_seams_by_angle(edges, angle.to_radians())?,
+                None if self.seam => mesh.mark_seams(edges)?,
+                None => mesh.clear_seams(edges)?,
+            };
+            if self.live_unwrap {
+                warnings.append(&mut unwrap_in_view(mesh));
+            }
             Ok(())
         })?;
-        Ok(Outcome::counted("changed", count, ["edge", "edges"]))
+        Ok(Outcome { warnings, ..Outcome::counted("changed", count, ["edge", "edges"]) })
+    }
+}
+
+/// Unwraps all faces in view, as far as their seams allow. Returns what users may want to improve.
+fn unwrap_in_view(mesh: &mut EditMesh) -> Vec<String> {
+    let faces: Vec<FaceId> = mesh.faces().filter(|&face| !mesh.is_face_hidden(face)).collect();
+    match mesh.unwrap_faces(&faces, &UnwrapSettings::default()) {
+        Ok(unwrapped) => super::unwrap::warnings(&unwrapped),
+        Err(refusal) => vec![format!("not unwrapped yet: {refusal}")],
     }
 }
 

@@ -9,6 +9,7 @@ mod apply_transform;
 mod boolean;
 mod cut;
 mod delete;
+mod edit_uvs;
 mod element_marks;
 mod extrude;
 mod hierarchy;
@@ -49,6 +50,7 @@ pub use apply_transform::ApplyTransform;
 pub use boolean::Boolean;
 pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
+pub use edit_uvs::{AlignUvs, AverageIslandScale, PinUvs, StitchUvs, StraightenUvs};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
 pub use extrude::{Bevel, Extrude, Inset, InsetMode};
 pub use hierarchy::{HideOthers, ReorderObject, RevealObjects, SetParent};
@@ -95,7 +97,7 @@ pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
     ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
     DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter, QuadLength, ScrewModifier,
-    SolidifySettings, SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
+    SolidifySettings, SubdivisionModifier, TriangulateModifier, UnwrapMethod, UvAlignment, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 
@@ -333,6 +335,16 @@ commands! {
     ScaleUvs("Scale UVs", false),
     /// Lays quads beside the active one.
     FollowActiveQuad("Follow Active Quad", false),
+    /// Pins texture coordinates, or frees them.
+    PinUvs("Pin UVs", false),
+    /// Brings islands together along edges.
+    StitchUvs("Stitch UVs", false),
+    /// Moves texture coordinates to an upright or level line.
+    AlignUvs("Align UVs", false),
+    /// Straightens chains of edges in the image.
+    StraightenUvs("Straighten UVs", false),
+    /// Gives islands even sizes.
+    AverageIslandScale("Average Island Scale", false),
     /// Repairs faults found by inspection.
     Repair("Repair", false),
     /// Adds the contents of a file.

@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{DAffine2, DMat2, DVec2, elementary};
-use trigon_modelling::{CornerId, EditMesh, FaceId, QuadLength, UvElements};
+use trigon_modelling::{CornerId, EditMesh, FaceId, QuadLength, UnwrapSettings, Unwrapped, UvElements};
 
+use super::unwrap::{add, warnings};
 use super::{Action, Outcome};
 use crate::error::EditError;
 use crate::selection::{ElementKind, MeshSelection};
@@ -23,13 +24,20 @@ pub struct TranslateUvs {
     pub uv_set: u32,
     /// To the right and upwards, in sides of the image.
     pub offset: [f64; 2],
+    /// Whether islands of which some pins are moved and others are not are unwrapped again, around the pins.
+    pub live_unwrap: bool,
 }
 
 impl Action for TranslateUvs {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let [right, up] = self.offset;
         let map = |_| DAffine2::from_translation(DVec2::new(right, -up));
-        transform(change, "moving texture coordinates", self.uv_set, map)
+        let moved = Moved {
+            command: "moving texture coordinates",
+            uv_set: self.uv_set,
+            live_unwrap: self.live_unwrap,
+        };
+        transform(change, &moved, map)
     }
 }
 
@@ -44,6 +52,8 @@ pub struct RotateUvs {
     /// The point that stays, from the upper left corner of the image to the right and downwards. Default: the middle of
     /// the coordinates.
     pub center: Option<[f64; 2]>,
+    /// Whether islands of which some pins are moved and others are not are unwrapped again, around the pins.
+    pub live_unwrap: bool,
 }
 
 impl Action for RotateUvs {
@@ -52,7 +62,12 @@ impl Action for RotateUvs {
         // v grows downwards.
         let turn = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
         let map = |center| about(turn, self.center, center);
-        transform(change, "turning texture coordinates", self.uv_set, map)
+        let moved = Moved {
+            command: "turning texture coordinates",
+            uv_set: self.uv_set,
+            live_unwrap: self.live_unwrap,
+        };
+        transform(change, &moved, map)
     }
 }
 
@@ -67,11 +82,13 @@ pub struct ScaleUvs {
     /// The point that stays, from the upper left corner of the image to the right and downwards. Default: the middle of
     /// the coordinates.
     pub center: Option<[f64; 2]>,
+    /// Whether islands of which some pins are moved and others are not are unwrapped again, around the pins.
+    pub live_unwrap: bool,
 }
 
 impl Default for ScaleUvs {
     fn default() -> Self {
-        Self { uv_set: 0, factors: [1.0; 2], center: None }
+        Self { uv_set: 0, factors: [1.0; 2], center: None, live_unwrap: false }
     }
 }
 
@@ -79,7 +96,12 @@ impl Action for ScaleUvs {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let scale = DMat2::from_diagonal(self.factors.into());
         let map = |center| about(scale, self.center, center);
-        transform(change, "scaling texture coordinates", self.uv_set, map)
+        let moved = Moved {
+            command: "scaling texture coordinates",
+            uv_set: self.uv_set,
+            live_unwrap: self.live_unwrap,
+        };
+        transform(change, &moved, map)
     }
 }
 
@@ -89,21 +111,32 @@ fn about(matrix: DMat2, given: Option<[f64; 2]>, middle: DVec2) -> DAffine2 {
     DAffine2 { matrix2: matrix, translation: center - matrix * center }
 }
 
+/// What the moves of texture coordinates have in common.
+struct Moved {
+    command: &'static str,
+    uv_set: u32,
+    live_unwrap: bool,
+}
+
 /// Changes the coordinates of the selected elements of all meshes, by a map that knows the middle of all of them.
 fn transform(
     change: &mut Change<'_>,
-    command: &'static str,
-    uv_set: u32,
+    moved: &Moved,
     map: impl Fn(DVec2) -> DAffine2,
 ) -> Result<Outcome, EditError> {
-    let (uv_set, kind) = (uv_set as usize, change.selection().kind());
+    let (uv_set, kind) = (moved.uv_set as usize, change.selection().kind());
     let map = map(selected_uv_center(change, uv_set));
-    change.edit_selected(command, SOMETHING, |mesh, selection| {
+    let mut unwrapped = Unwrapped::default();
+    change.edit_selected(moved.command, SOMETHING, |mesh, selection| {
         let corners = selected_uv_corners(mesh, selection, kind, uv_set);
         mesh.transform_uvs(uv_set, &corners, &map)?;
+        if moved.live_unwrap {
+            let settings = UnwrapSettings { uv_set, ..UnwrapSettings::default() };
+            add(&mut unwrapped, mesh.unwrap_around_moved_pins(&corners, &settings)?);
+        }
         Ok(AfterEdit::Keep)
     })?;
-    Ok(Outcome::silent())
+    Ok(Outcome { warnings: warnings(&unwrapped), ..Outcome::silent() })
 }
 
 /// The middle of the box around what is selected in all meshes; the origin without coordinates, which is then refused.

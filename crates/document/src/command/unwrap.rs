@@ -10,7 +10,8 @@ use crate::state::Change;
 
 const FACES: &str = "at least one selected face";
 
-/// Lays the selected faces flat along seams, and packs the islands into the image.
+/// Lays the selected faces flat along seams, and packs the islands into the image. Pinned coordinates stay, and so do
+/// islands with pins (`pin_uvs`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Unwrap {
@@ -86,7 +87,7 @@ impl Action for SmartProject {
     }
 }
 
-/// Arranges the islands of the selected faces in the image so that they do not overlap.
+/// Arranges the islands of the selected faces in the image so that they do not overlap. Islands with pins stay.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PackIslands {
@@ -123,30 +124,43 @@ impl Action for PackIslands {
 
 const ISLANDS: [&str; 2] = ["island", "islands"];
 
-fn add(sum: &mut Unwrapped, of: Unwrapped) {
+pub(super) fn add(sum: &mut Unwrapped, of: Unwrapped) {
     sum.islands += of.islands;
     sum.not_conformal += of.not_conformal;
+    sum.pinned += of.pinned;
+    sum.overlapping += of.overlapping;
     sum.turned_over += of.turned_over;
 }
 
-/// What was done, and what users may want to improve.
+/// What was done.
 fn outcome(of: &Unwrapped) -> Outcome {
-    let mut outcome = Outcome::counted("made", of.islands, ISLANDS);
+    Outcome { warnings: warnings(of), ..Outcome::counted("made", of.islands, ISLANDS) }
+}
+
+/// What users may want to improve.
+pub(super) fn warnings(of: &Unwrapped) -> Vec<String> {
+    let mut warnings = Vec::new();
     if of.not_conformal > 0 {
-        outcome.warnings.push(format!(
+        warnings.push(format!(
             "{} of the islands would overlap themselves if angles were preserved, so they are stretched more: mark \
              more seams there",
             of.not_conformal
         ));
     }
+    if of.overlapping > 0 {
+        warnings.push(format!(
+            "{} of the islands overlap themselves because of where their pins are: move pins, or clear some",
+            of.overlapping
+        ));
+    }
     if of.turned_over > 0 {
-        outcome.warnings.push(format!(
+        warnings.push(format!(
             "{} triangles have no area in the image or are turned over: mark more seams there, or merge vertices by \
              distance",
             of.turned_over
         ));
     }
-    outcome
+    warnings
 }
 
 #[cfg(test)]

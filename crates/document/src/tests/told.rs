@@ -102,6 +102,9 @@ fn marks_are_counted_once() {
     let by_angle = |angle| json!({ "op": "mark_sharp", "angle": angle });
     assert_told("edge", [by_angle(89)], "changed 24 edges", CUBE);
     assert_told("edge", [by_angle(91)], "changed 0 edges", CUBE);
+    let seams = |angle| json!({ "op": "mark_seam", "angle": angle });
+    assert_told("edge", [seams(89)], "changed 24 edges", CUBE);
+    assert_told("edge", [seams(89), seams(91)], "changed 24 edges", CUBE);
 }
 
 #[test]

@@ -209,6 +209,7 @@ impl Layer {
             LayerValues::Vec3(_) => LayerValues::Vec3(Column::new(Vec::new())),
             LayerValues::Vec4(_) => LayerValues::Vec4(Column::new(Vec::new())),
             LayerValues::Influences(_) => LayerValues::Influences(Column::new(Vec::new())),
+            LayerValues::Pins(_) => LayerValues::Pins(Column::new(Vec::new())),
         };
         Self { kind: self.kind, values }
     }
@@ -220,6 +221,7 @@ impl Layer {
             (LayerValues::Vec3(own), LayerValues::Vec3(other)) => *own.write(to) = other[from],
             (LayerValues::Vec4(own), LayerValues::Vec4(other)) => *own.write(to) = other[from],
             (LayerValues::Influences(own), LayerValues::Influences(other)) => *own.write(to) = other[from],
+            (LayerValues::Pins(own), LayerValues::Pins(other)) => *own.write(to) = other[from],
             _ => unreachable!("layers of the same kind have values of the same type"),
         }
     }

@@ -16,6 +16,28 @@ use crate::refusal::Refusal;
 /// Normals are rounded: faces that meet at exactly the angle are still smooth.
 const COSINE_ROUNDING: f64 = 1e-6;
 
+/// Finds edges at which the normals of two faces differ by more than an angle.
+struct EdgeAngles {
+    least_cosine: f64,
+    normals: FaceNormals,
+}
+
+impl EdgeAngles {
+    /// The angle in radians.
+    fn above(angle: f64) -> Result<Self, Refusal> {
+        if !(0.0..=PI).contains(&angle) {
+            return Err(Refusal::OutOfRange { parameter: "the angle", value: angle, range: "0 to π" });
+        }
+        let least_cosine = elementary::cos(angle) - COSINE_ROUNDING;
+        Ok(Self { least_cosine, normals: FaceNormals::default() })
+    }
+
+    /// `None` of an edge without two such faces.
+    fn is_greater(&mut self, mesh: &EditMesh, edge: EdgeId) -> Option<bool> {
+        mesh.edge_normals(edge, &mut self.normals).map(|[one, two]| one.dot(two) < self.least_cosine)
+    }
+}
+
 impl EditMesh {
     /// Keeps edges sharp in smooth shading. Given normals of the corners at their ends are cleared.
     ///
@@ -43,14 +65,8 @@ impl EditMesh {
     /// No edge is given, one does not exist, or the angle is not within 0…π.
     pub fn mark_sharp_by_angle(&mut self, edges: &[EdgeId], angle: f64) -> Result<usize, Refusal> {
         self.check_edges(edges, "marking edges sharp by angle")?;
-        if !(0.0..=PI).contains(&angle) {
-            return Err(Refusal::OutOfRange { parameter: "the angle", value: angle, range: "0 to π" });
-        }
-        let least_cosine = elementary::cos(angle) - COSINE_ROUNDING;
-        let mut normals = FaceNormals::default();
-        Ok(self.change_sharp(edges, |mesh, edge| {
-            mesh.edge_normals(edge, &mut normals).map(|[one, two]| one.dot(two) < least_cosine)
-        }))
+        let mut angles = EdgeAngles::above(angle)?;
+        Ok(self.change_sharp(edges, |mesh, edge| angles.is_greater(mesh, edge)))
     }
 
     /// Marks edges sharp or not as a function decides; `None` leaves an edge unchanged. Returns how
@@ -93,7 +109,23 @@ impl EditMesh {
         Ok(edges.iter().filter(|&&edge| self.change_seam(edge, false)).count())
     }
 
-    fn change_seam(&mut self, edge: EdgeId, is_seam: bool) -> bool {
+    /// Of the edges at which exactly two faces meet in opposite directions, makes those seams at which their normals
+    /// differ by more than `angle` (radians, 0 to π), and clears the others. All other edges, and those of a face without
+    /// area, are unchanged.
+    ///
+    /// # Errors
+    /// No edge is given, one does not exist, or the angle is not within 0…π.
+    pub fn mark_seams_by_angle(&mut self, edges: &[EdgeId], angle: f64) -> Result<usize, Refusal> {
+        self.check_edges(edges, "marking seams by angle")?;
+        let mut angles = EdgeAngles::above(angle)?;
+        let mut changes = |&edge: &EdgeId| {
+            angles.is_greater(self, edge).is_some_and(|is_seam| self.change_seam(edge, is_seam))
+        };
+        Ok(edges.iter().filter(|edge| changes(edge)).count())
+    }
+
+    /// Returns whether it was different.
+    pub(super) fn change_seam(&mut self, edge: EdgeId, is_seam: bool) -> bool {
         let changes = self.is_seam(edge) != is_seam;
         if changes {
             self.set_seam(edge, is_seam);
@@ -228,6 +260,14 @@ mod tests {
         assert_eq!(cube.mark_sharp_by_angle(&edges, 1.5), Ok(12), "but more than this");
         assert_eq!(cube.mark_sharp_by_angle(&edges, PI), Ok(12), "and they are cleared again");
         assert!(cube.mark_sharp_by_angle(&edges, 4.0).is_err(), "more than half a turn");
+        assert_eq!(
+            cube.mark_seams_by_angle(&edges, PI / 2.0),
+            Ok(0),
+            "seams: a right angle is not more than one"
+        );
+        assert_eq!(cube.mark_seams_by_angle(&edges[2..], 1.5), Ok(10), "but more than this");
+        assert_eq!(cube.mark_seams_by_angle(&edges, PI), Ok(10), "and they are cleared again");
+        assert!(cube.mark_seams_by_angle(&edges, -0.1).is_err(), "less than none");
     }
 
     #[test]

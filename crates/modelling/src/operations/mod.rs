@@ -3,6 +3,7 @@
 //! Each is a method of [`EditMesh`](super::EditMesh) that takes ids and parameters, in time proportional to
 //! what it changes, and returns what it made. Ids given twice count once. On an error the mesh is unchanged.
 
+mod align_uvs;
 mod bevel;
 mod bisect;
 mod boolean;
@@ -60,8 +61,10 @@ mod tris_to_quads;
 mod un_subdivide;
 mod unwrap;
 mod uv_overlaps;
+mod uv_pins;
 mod wireframe;
 
+pub use align_uvs::{Straightened, UvAlignment};
 pub use bevel::{BevelLeftOut, BevelSettings, BevelWidth, Beveled, InnerMiter, OuterMiter};
 pub use bisect::{BisectSettings, Bisected};
 pub use boolean::{BooleanTool, Combined};
@@ -94,5 +97,7 @@ pub use transform_uvs::UvElements;
 pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
 pub use un_subdivide::UnSubdivided;
-pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};
+pub use unwrap::{
+    PackSettings, SmartProjection, StitchSettings, Stitched, UnwrapMethod, UnwrapSettings, Unwrapped,
+};
 pub use wireframe::WireframeSettings;

@@ -22,7 +22,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 35 {
+    match kind % 41 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -101,6 +101,15 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
         }
         33 => mesh.un_subdivide(&faces).map(drop),
+        34 => mesh.pin_uvs(0, &some(mesh.corners(), bits)).map(drop),
+        35 => mesh.unpin_uvs(0, &some(mesh.corners(), bits)).map(drop),
+        36 => {
+            let settings = StitchSettings { at_midpoints: a > 0.0, ..StitchSettings::default() };
+            mesh.stitch_uvs(&edges, &settings).map(drop)
+        }
+        37 => mesh.straighten_uvs(0, &edges).map(drop),
+        38 => mesh.average_uv_island_scale(&faces, 0).map(drop),
+        39 => mesh.mark_seams_by_angle(&edges, b.abs()).map(drop),
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -136,7 +145,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 35)) {
+            if (5..15).contains(&(kind % 41)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

@@ -113,7 +113,7 @@ impl EditMesh {
     }
 
     /// Whether two corners of one edge have the same texture coordinates at both of its ends.
-    fn shares_uvs(&self, uv_set: usize, a: CornerId, b: CornerId) -> bool {
+    pub(super) fn shares_uvs(&self, uv_set: usize, a: CornerId, b: CornerId) -> bool {
         let at = |corner| (self.corner_vertex(corner), self.uv(uv_set, corner));
         let ends = |corner| [at(corner), at(self.next_corner(corner))];
         let ([a_first, a_second], [b_first, b_second]) = (ends(a), ends(b));

@@ -232,8 +232,10 @@ actions! {
     "Mesh/Edge" "edge.menu" "Edge Menu" "Ctrl+E" EditMode Ui(UiRequest::Popup("Mesh/Edge")) => "Lists operations on edges.";
     "Mesh/Edge" "edge.mark_seam" "Mark Seam" "" Elements Run(r#"{"op":"mark_seam"}"#) => "Marks edges as seams.";
     "Mesh/Edge" "edge.clear_seam" "Clear Seam" "" Elements Run(r#"{"op":"mark_seam","seam":false}"#) => "Clears seams.";
+    "Mesh/Edge" "edge.seam_by_angle" "Mark Seams by Angle" "" Elements Run(r#"{"op":"mark_seam","angle":30.0}"#) => "Makes edges seams where faces meet at more than an angle; change it with F9.";
     "Mesh/Edge" "edge.mark_sharp" "Mark Sharp" "" Elements Run(r#"{"op":"mark_sharp"}"#) => "Marks edges sharp for shading.";
     "Mesh/Edge" "edge.clear_sharp" "Clear Sharp" "" Elements Run(r#"{"op":"mark_sharp","sharp":false}"#) => "Clears sharp edges.";
+    "Mesh/Edge" "edge.sharp_by_angle" "Mark Sharp by Angle" "" Elements Run(r#"{"op":"mark_sharp","angle":30.0}"#) => "Makes edges sharp where faces meet at more than an angle; change it with F9.";
     "Mesh/Edge" "edge.crease" "Crease" "Shift+E" Elements Run(r#"{"op":"crease","crease":1.0}"#) => "Keeps edges sharp in subdivision.";
     "Mesh/Edge" "edge.clear_crease" "Clear Crease" "" Elements Run(r#"{"op":"crease"}"#) => "Makes edges smooth in subdivision again.";
 
@@ -261,6 +263,12 @@ actions! {
     "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
     "UV" "uv.follow" "Follow Active Quad" "" Elements Run(r#"{"op":"follow_active_quad"}"#) => "Lays the selected quads beside the active one, as rows and columns.";
     "UV" "uv.layout" "Save UV Layout…" "" EditMode View(ViewRequest::UvLayout) => "Writes the outlines of faces as an image, to be painted over in another program.";
+    "UV" "uv.pin" "Pin UVs" "" Elements Run(r#"{"op":"pin_uvs"}"#) => "Holds texture coordinates where they are when faces are unwrapped.";
+    "UV" "uv.unpin" "Unpin UVs" "" Elements Run(r#"{"op":"pin_uvs","pinned":false}"#) => "Frees pinned texture coordinates.";
+    "UV" "uv.stitch" "Stitch UVs" "" Elements Run(r#"{"op":"stitch_uvs"}"#) => "Brings islands together along the selected edges.";
+    "UV" "uv.align" "Align UVs" "" Elements Run(r#"{"op":"align_uvs"}"#) => "Moves texture coordinates to an upright or level line; choose it with F9.";
+    "UV" "uv.straighten" "Straighten UVs" "" Elements Run(r#"{"op":"straighten_uvs"}"#) => "Moves chains of edges onto the line between their ends.";
+    "UV" "uv.average" "Average Island Scale" "" Elements Run(r#"{"op":"average_island_scale"}"#) => "Gives islands sizes in proportion to those on the surface.";
     "UV" "uv.pack" "Pack Islands" "" Elements Run(r#"{"op":"pack_islands"}"#) => "Arranges islands of texture coordinates in the image, in even scale.";
     "View" "view.frame_selected" "Frame Selected" "Numpad." Nothing View(ViewRequest::FrameSelected) => "Frames the selection.";
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Frames the whole scene.";

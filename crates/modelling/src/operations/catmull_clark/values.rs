@@ -51,6 +51,10 @@ impl EditMesh {
                 let values = self.interpolated_at_vertices(numbers, column.values());
                 column.replace(values);
             }
+            LayerValues::Pins(column) => {
+                let values = self.interpolated_at_vertices(numbers, column.values());
+                column.replace(values);
+            }
         }
     }
 
@@ -98,6 +102,10 @@ impl EditMesh {
                 column.replace(values);
             }
             LayerValues::Influences(column) => {
+                let values = self.interpolated_at_corners(numbers, column.values(), |mean, _| mean);
+                column.replace(values);
+            }
+            LayerValues::Pins(column) => {
                 let values = self.interpolated_at_corners(numbers, column.values(), |mean, _| mean);
                 column.replace(values);
             }

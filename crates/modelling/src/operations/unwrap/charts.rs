@@ -26,6 +26,8 @@ pub(super) struct UvChart {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The closed loops of its border, with the surface on the left.
     pub(super) loops: Vec<Vec<u32>>,
+    /// Vertices that less stretch leaves where they are; none without pins.
+    pub(super) held: Vec<u32>,
 }
 
 /// A corner of a chart.
@@ -86,6 +88,15 @@ impl UvChart {
             let next = border.iter().skip(1).chain(border.first());
             border.iter().zip(next).map(|(&from, &to)| [from, to])
         })
+    }
+
+    /// The area of all triangles in a layout, whichever way they wind.
+    pub(super) fn layout_area(&self, layout: &[DVec2]) -> f64 {
+        let double = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|vertex| layout[vertex as usize]);
+            (b - a).perp_dot(c - a).abs()
+        };
+        self.triangles.iter().map(double).sum::<f64>() / 2.0
     }
 
     /// Its area, in square metres.

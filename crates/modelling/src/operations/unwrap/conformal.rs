@@ -1,7 +1,7 @@
 //! Conformal layouts: angles are preserved as well as possible.
 //!
 //! B. Lévy, S. Petitjean, N. Ray and J. Maillot, *Least Squares Conformal Maps for Automatic Texture Atlas
-//! Generation*, SIGGRAPH 2002. Two vertices are pinned; the others are where the sum over all triangles of the
+//! Generation*, SIGGRAPH 2002. Two or more vertices are pinned; the others are where the sum over all triangles of the
 //! squared deviation from a similarity is least. The sum is taken over complex numbers as in section 3, and
 //! solved by its normal equations.
 
@@ -9,11 +9,27 @@ use trigon_math::DVec2;
 
 use super::charts::{FlatTriangle, UvChart};
 use super::factor::{Entry, Factor, NoFactor, conjugate, times};
+use super::pinned::Pin;
 
 /// The layout of a chart, up to a similarity.
 pub(super) fn conformal(chart: &UvChart, memory: u64) -> Result<Vec<DVec2>, NoFactor> {
-    let pins = Pins::new(chart);
-    let mut rows = NormalEquations::new(chart.points.len(), &pins);
+    let FarVertices { vertices, distance } = FarVertices::new(chart);
+    let ends = [(vertices[0], DVec2::ZERO), (vertices[1], DVec2::new(distance, 0.0))];
+    solve(chart, ends.into_iter(), memory)
+}
+
+/// The layout of a chart with at least two pins.
+pub(super) fn between(chart: &UvChart, pins: &[Pin], memory: u64) -> Result<Vec<DVec2>, NoFactor> {
+    solve(chart, pins.iter().map(|pin| (pin.vertex, pin.point())), memory)
+}
+
+/// The layout in which some vertices are at given points.
+fn solve(
+    chart: &UvChart,
+    given: impl Iterator<Item = (u32, DVec2)>,
+    memory: u64,
+) -> Result<Vec<DVec2>, NoFactor> {
+    let mut rows = NormalEquations::new(chart.points.len(), given);
     chart.flat_triangles().iter().for_each(|triangle| rows.add(triangle));
     let factor = Factor::new(rows.right_hand_side.len(), &rows.entries, memory)?;
     let solution = factor.solve(&rows.right_hand_side);
@@ -25,12 +41,12 @@ pub(super) fn conformal(chart: &UvChart, memory: u64) -> Result<Vec<DVec2>, NoFa
 }
 
 /// Two vertices of the border that are far apart, and their distance.
-struct Pins {
+struct FarVertices {
     vertices: [u32; 2],
     distance: f64,
 }
 
-impl Pins {
+impl FarVertices {
     /// The farthest pair of a small border; of a large one the ends of the longest of a few steps, each to the
     /// vertex that is farthest from the last.
     fn new(chart: &UvChart) -> Self {
@@ -82,19 +98,20 @@ struct NormalEquations {
 }
 
 impl NormalEquations {
-    fn new(count: usize, pins: &Pins) -> Self {
+    fn new(count: usize, given: impl Iterator<Item = (u32, DVec2)>) -> Self {
+        let mut points = vec![None; count];
+        given.for_each(|(vertex, point)| points[vertex as usize] = Some(point));
         let mut free = 0;
-        let mut fixed = |vertex: u32| {
-            if vertex == pins.vertices[0] {
-                return Fixed::Pinned(DVec2::ZERO);
-            }
-            if vertex == pins.vertices[1] {
-                return Fixed::Pinned(DVec2::new(pins.distance, 0.0));
-            }
-            free += 1;
-            Fixed::Free(free - 1)
+        let fixed = |point: Option<DVec2>| {
+            point.map_or_else(
+                || {
+                    free += 1;
+                    Fixed::Free(free - 1)
+                },
+                Fixed::Pinned,
+            )
         };
-        let vertices: Vec<Fixed> = (0..count as u32).map(&mut fixed).collect();
+        let vertices: Vec<Fixed> = points.into_iter().map(fixed).collect();
         Self { vertices, entries: Vec::new(), right_hand_side: vec![DVec2::ZERO; free as usize] }
     }
 

@@ -7,7 +7,7 @@ use super::injective::turned_over;
 use super::pack::pack;
 use super::rectangle::{to_origin, turn_upright};
 use crate::edit_mesh::EditMesh;
-use crate::ids::{CornerId, FaceId};
+use crate::ids::FaceId;
 use crate::refusal::Refusal;
 
 /// Parameters of [`EditMesh::pack_uv_islands`].
@@ -50,6 +50,11 @@ impl Island {
     }
 }
 
+/// The charts of faces as their texture coordinates cut them.
+pub(super) fn uv_charts(mesh: &EditMesh, faces: &[FaceId], uv_set: usize) -> Vec<UvChart> {
+    charts(mesh, faces, |_, [a, b]| mesh.shares_uvs(uv_set, a, b))
+}
+
 pub(super) fn check_margin(margin: f64) -> Result<(), Refusal> {
     if (0.0..1.0).contains(&margin) {
         return Ok(());
@@ -59,7 +64,8 @@ pub(super) fn check_margin(margin: f64) -> Result<(), Refusal> {
 
 impl EditMesh {
     /// Arranges the islands of faces in the image, from (0, 0) to (1, 1), so that they do not overlap. Faces belong
-    /// to one island where they share an edge and its texture coordinates. Returns the number of islands.
+    /// to one island where they share an edge and its texture coordinates. Islands with pinned coordinates stay where they
+    /// are. Returns the number of the others.
     ///
     /// # Errors
     /// No face is given, one does not exist; there is no such set; texture coordinates or positions are not finite;
@@ -78,10 +84,11 @@ impl EditMesh {
             return Err(not_possible("there are no such texture coordinates; unwrap the faces first"));
         }
         let uv = |corner| self.uv(uv_set, corner).expect("the set exists");
-        let is_joined =
-            |_, [a, b]: [CornerId; 2]| uv(a) == uv(self.next_corner(b)) && uv(b) == uv(self.next_corner(a));
         let mut islands = Vec::new();
-        for chart in charts(self, faces, is_joined) {
+        for chart in uv_charts(self, faces, uv_set) {
+            if chart.corners.iter().any(|at| self.is_uv_pinned(uv_set, at.corner)) {
+                continue;
+            }
             let mut layout = vec![DVec2::ZERO; chart.points.len()];
             for corner in &chart.corners {
                 let uv = uv(corner.corner).as_dvec2();

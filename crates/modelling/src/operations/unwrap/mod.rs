@@ -1,18 +1,24 @@
 //! Unwrapping: charts of a surface are laid flat, and packed into the image as islands.
 //!
 //! `charts` cuts the surface, `conformal` and `convex` lay a chart flat by means of `factor`, `stretch` improves a
-//! layout, `injective` tests it, `pack` arranges the rectangles of islands.
+//! layout, `injective` tests it, `pinned` lays charts around given coordinates, `pack` arranges the rectangles of islands.
 
+mod average_scale;
 mod charts;
 mod conformal;
 mod convex;
 mod factor;
 mod injective;
 mod islands;
+mod live;
 mod ordering;
 mod pack;
+mod pinned;
+#[cfg(test)]
+mod pinned_tests;
 mod rectangle;
 mod smart;
+mod stitch;
 mod stretch;
 #[cfg(test)]
 mod tests;
@@ -25,12 +31,14 @@ use self::charts::{UvChart, charts};
 use self::factor::NoFactor;
 use self::injective::is_injective;
 use self::islands::{Island, check_margin};
+use self::pinned::{Pin, PinnedIsland};
 use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
 use crate::refusal::Refusal;
 
 pub use self::islands::PackSettings;
 pub use self::smart::SmartProjection;
+pub use self::stitch::{StitchSettings, Stitched};
 
 /// How charts are laid flat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -72,8 +80,12 @@ pub struct Unwrapped {
     pub islands: usize,
     /// How many of them could not be laid out conformally without overlaps.
     pub not_conformal: usize,
-    /// How many triangles are turned over or have no area, because they are too small for the precision of texture
-    /// coordinates.
+    /// How many of them are not packed, because they have pins.
+    pub pinned: usize,
+    /// How many of those overlap themselves, because of where their pins are.
+    pub overlapping: usize,
+    /// How many triangles are turned over or have no area, because of pins, or because they are too small for the precision
+    /// of texture coordinates.
     pub turned_over: usize,
 }
 
@@ -88,10 +100,14 @@ impl EditMesh {
     /// areas on the surface. Faces are also cut where more than two of them meet, or two with opposite windings. If
     /// there are `uv_set` sets, one is added, with zero at all other corners. Given tangents are unchanged.
     ///
+    /// Pinned coordinates stay as they are to the bit ([`Self::pin_uvs`]), and islands with pins are not packed. With two
+    /// pins or more the others follow conformally, whatever the method, in the size that the pins give; where pins do not
+    /// allow that, islands may overlap themselves. With one pin an island has the size and direction that it had before.
+    ///
     /// # Errors
     /// No face is given, one does not exist; there are fewer than `uv_set` sets; the margin is out of range; a
-    /// position is not finite; a part is closed or has handles, so that it cannot be laid flat; or memory is not
-    /// sufficient.
+    /// position or pin is not finite; a vertex is pinned at two positions without a seam between them; a part is closed or
+    /// has handles, so that it cannot be laid flat; or memory is not sufficient.
     pub fn unwrap_faces(
         &mut self,
         faces: &[FaceId],
@@ -103,8 +119,13 @@ impl EditMesh {
         let charts = charts(self, faces, |edge, _| !self.is_seam(edge));
         charts.iter().try_for_each(check_chart)?;
         let mut unwrapped = Unwrapped { islands: charts.len(), ..Unwrapped::default() };
-        let mut islands = Vec::new();
+        let (mut islands, mut pinned) = (Vec::new(), Vec::new());
         for chart in charts {
+            let pins = pinned::pins(self, &chart, settings.uv_set)?;
+            if !pins.is_empty() {
+                pinned.push(self.lay_around_pins(chart, pins, settings, &mut unwrapped)?);
+                continue;
+            }
             let (layout, is_as_wanted) =
                 lay_flat(&chart, settings, self.memory).map_err(|error| self.no_layout(error))?;
             unwrapped.not_conformal += usize::from(!is_as_wanted);
@@ -115,7 +136,33 @@ impl EditMesh {
             settings.uv_set,
             &PackSettings { margin: settings.margin, ..PackSettings::default() },
         )?;
+        for island in &pinned {
+            island.write(self, settings.uv_set);
+            unwrapped.turned_over += island.turned_over();
+            unwrapped.overlapping += usize::from(island.overlaps());
+        }
+        unwrapped.pinned = pinned.len();
         Ok(unwrapped)
+    }
+
+    fn lay_around_pins(
+        &self,
+        mut chart: UvChart,
+        pins: Vec<Pin>,
+        settings: &UnwrapSettings,
+        unwrapped: &mut Unwrapped,
+    ) -> Result<PinnedIsland, Refusal> {
+        let layout = if let [pin] = &pins[..] {
+            let (mut layout, is_as_wanted) =
+                lay_flat(&chart, settings, self.memory).map_err(|error| self.no_layout(error))?;
+            unwrapped.not_conformal += usize::from(!is_as_wanted);
+            pinned::move_to_pin(self, &chart, pin, settings.uv_set, &mut layout);
+            layout
+        } else {
+            pinned::lay_between(&mut chart, &pins, settings.minimize_stretch, self.memory)
+                .map_err(|error| self.no_layout(error))?
+        };
+        PinnedIsland::new(chart, pins, &layout)
     }
 
     fn no_layout(&self, error: NoFactor) -> Refusal {

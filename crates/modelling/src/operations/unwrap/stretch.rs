@@ -31,11 +31,11 @@ pub(super) fn minimize_stretch(
     if iterations == 0 || turned_over(chart, layout) > 0 {
         return Ok(());
     }
-    let global = Global::new(layout.len(), &triangles, memory)?;
+    let global = Global::new(chart, &triangles, memory)?;
     let mut rotations = vec![DVec2::X; triangles.len()];
     let mut energy = fit(&triangles, layout, &mut rotations);
     for _ in 0..iterations {
-        let wanted = global.solve(&triangles, &rotations, layout[0]);
+        let wanted = global.solve(&triangles, &rotations, layout);
         let Some(step) = step(chart, &triangles, layout, &wanted, energy) else { break };
         let gain = energy - step.energy;
         *layout = step.layout;
@@ -120,39 +120,64 @@ fn fit(triangles: &[WeightedTriangle], layout: &[DVec2], rotations: &mut [DVec2]
     energy
 }
 
-/// The system of equations that joins all triangles. The first vertex stays where it is.
+/// The system of equations that joins all triangles. The held vertices stay where they are, or else the first.
 struct Global {
     factor: Factor,
-    count: usize,
+    /// By vertex: the number of its unknown, `None` where it is held.
+    unknowns: Vec<Option<u32>>,
 }
 
 impl Global {
-    fn new(count: usize, triangles: &[WeightedTriangle], memory: u64) -> Result<Self, NoFactor> {
+    fn new(chart: &UvChart, triangles: &[WeightedTriangle], memory: u64) -> Result<Self, NoFactor> {
+        let held = if chart.held.is_empty() { &[0][..] } else { &chart.held };
+        let mut free = 0;
+        let unknown = |vertex| {
+            let is_free = held.binary_search(&vertex).is_err();
+            free += u32::from(is_free);
+            is_free.then(|| free - 1)
+        };
+        let unknowns: Vec<Option<u32>> = (0..chart.points.len() as u32).map(unknown).collect();
         let mut entries = Vec::new();
         for TriangleSide { ends, weight, .. } in triangles.iter().flat_map(WeightedTriangle::sides) {
-            let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])].map(|end| unknowns[end as usize]);
             let value = DVec2::new(weight, 0.0);
-            entries.push(Entry { row: high - 1, column: high - 1, value });
-            if low > 0 {
-                entries.push(Entry { row: low - 1, column: low - 1, value });
-                entries.push(Entry { row: low - 1, column: high - 1, value: -value });
-            }
+            entries.extend(high.map(|high| Entry { row: high, column: high, value }));
+            entries.extend(low.map(|low| Entry { row: low, column: low, value }));
+            entries.extend(low.zip(high).map(|(row, column)| Entry { row, column, value: -value }));
         }
-        Ok(Self { factor: Factor::new(count - 1, &entries, memory)?, count })
+        Ok(Self { factor: Factor::new(free as usize, &entries, memory)?, unknowns })
     }
 
-    fn solve(&self, triangles: &[WeightedTriangle], rotations: &[DVec2], first: DVec2) -> Vec<DVec2> {
-        let mut sums = vec![DVec2::ZERO; self.count];
+    /// Where all vertices would be, if held ones are where they are in a layout.
+    fn solve(&self, triangles: &[WeightedTriangle], rotations: &[DVec2], layout: &[DVec2]) -> Vec<DVec2> {
+        let is_free = |vertex: u32| self.unknowns[vertex as usize].is_some();
+        let first = self.unknowns.iter().position(Option::is_none).expect("one is held");
+        // Relative to the first that is held.
+        let origin = layout[first];
+        let mut sums = vec![DVec2::ZERO; self.unknowns.len()];
         for (triangle, &rotation) in triangles.iter().zip(rotations) {
             for TriangleSide { ends: [from, to], shape, weight } in triangle.sides() {
                 let wanted = times(rotation, shape) * weight;
                 sums[from as usize] -= wanted;
                 sums[to as usize] += wanted;
+                for [free, held] in [[from, to], [to, from]] {
+                    if is_free(free) && !is_free(held) && held as usize != first {
+                        sums[free as usize] += (layout[held as usize] - origin) * weight;
+                    }
+                }
             }
         }
-        // Relative to the first vertex, which is then no unknown.
-        let relative = self.factor.solve(&sums[1..]);
-        std::iter::once(first).chain(relative.into_iter().map(|point| first + point)).collect()
+        let right_hand_side: Vec<DVec2> = sums
+            .iter()
+            .zip(&self.unknowns)
+            .filter(|(_, unknown)| unknown.is_some())
+            .map(|(sum, _)| *sum)
+            .collect();
+        let relative = self.factor.solve(&right_hand_side);
+        let point = |(unknown, at): (&Option<u32>, &DVec2)| {
+            unknown.map_or(*at, |unknown| origin + relative[unknown as usize])
+        };
+        self.unknowns.iter().zip(layout).map(point).collect()
     }
 }
 

@@ -10,8 +10,8 @@ use crate::tests::{check_operation, meshes};
 
 /// A triangle in texture coordinates with v upwards, and its shape on the surface.
 pub(super) struct UvTriangle {
-    uv: [DVec2; 3],
-    surface: [DVec3; 3],
+    pub(super) uv: [DVec2; 3],
+    pub(super) surface: [DVec3; 3],
 }
 
 impl UvTriangle {
@@ -20,7 +20,7 @@ impl UvTriangle {
         (b - a).cross(c - a).length() / 2.0
     }
 
-    fn uv_area(&self) -> f64 {
+    pub(super) fn uv_area(&self) -> f64 {
         let [a, b, c] = self.uv;
         (b - a).perp_dot(c - a) / 2.0
     }
@@ -56,7 +56,7 @@ fn uv_triangles(mesh: &EditMesh, faces: &[FaceId]) -> Vec<UvTriangle> {
 }
 
 /// The L² stretch of all triangles: 1 if areas and angles are preserved, otherwise more.
-fn stretch(triangles: &[UvTriangle]) -> f64 {
+pub(super) fn stretch(triangles: &[UvTriangle]) -> f64 {
     let surface: f64 = triangles.iter().map(UvTriangle::surface_area).sum();
     let flat: f64 = triangles.iter().map(UvTriangle::uv_area).sum();
     let squared: f64 =
@@ -66,7 +66,7 @@ fn stretch(triangles: &[UvTriangle]) -> f64 {
 
 /// The area of the intersection of two triangles, by clipping the first at the sides of the second (I. Sutherland and
 /// G. Hodgman, 1974).
-fn common_area(one: &[DVec2; 3], other: &[DVec2; 3]) -> f64 {
+pub(super) fn common_area(one: &[DVec2; 3], other: &[DVec2; 3]) -> f64 {
     let mut polygon = one.to_vec();
     for side in 0..3 {
         let (from, to) = (other[side], other[(side + 1) % 3]);
@@ -129,7 +129,7 @@ pub(super) fn all_triangles(mesh: &EditMesh) -> Vec<UvTriangle> {
 }
 
 /// A grid over the unit square whose vertices a function moves.
-fn grid(columns: u32, rows: u32, mut moved: impl FnMut(DVec2) -> DVec3) -> Mesh {
+pub(super) fn grid(columns: u32, rows: u32, mut moved: impl FnMut(DVec2) -> DVec3) -> Mesh {
     let mut builder = MeshBuilder::new();
     for y in 0..=rows {
         for x in 0..=columns {

@@ -160,6 +160,7 @@ fn write_edit_data(writer: &mut ColumnWriter, data: &EditData) {
     writer.words("hiddenVertices", data.hidden_vertices.iter().copied());
     writer.words("hiddenFaces", data.hidden_faces.iter().copied());
     writer.words("sharpCorners", data.sharp_corners.iter().copied());
+    writer.words("pinnedCorners", data.pinned_corners.as_flattened().iter().copied());
 }
 
 /// Finds the bytes of columns by name, and hashes those requested.
@@ -338,6 +339,11 @@ fn read_edit_data(reader: &mut ColumnReader<'_>, modifiers: String) -> Result<Ed
         hidden_vertices: reader.words("hiddenVertices")?,
         hidden_faces: reader.words("hiddenFaces")?,
         sharp_corners: reader.words("sharpCorners")?,
+        pinned_corners: {
+            let words = reader.words("pinnedCorners")?;
+            let (pairs, []) = words.as_chunks::<2>() else { return Err(uneven("pinnedCorners")) };
+            pairs.to_vec()
+        },
         modifiers,
     })
 }
