@@ -110,8 +110,8 @@ impl KnifeTool {
             return self.modal.refuse(text);
         }
         let object = self.mesh.and_then(|mesh| document.object_of(mesh));
-        let path = path.into_iter().map(path_point).collect();
-        self.modal.show(document, Knife { object, path }.into());
+        let strokes = vec![path.into_iter().map(path_point).collect()];
+        self.modal.show(document, Knife { object, strokes }.into());
         if document.previewed().is_some() { Modal::confirm(document) } else { ToolState::Running }
     }
 

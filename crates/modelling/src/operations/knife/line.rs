@@ -11,7 +11,7 @@ pub trait ProjectedLine {
     /// On which side of the line a point is: linear in space, and 0 on it.
     fn side(&self, point: DVec3) -> f64;
 
-    /// How far along the line a point is seen: greater further on.
+    /// How far along the line a point is seen: greater further on; −∞ behind the eye.
     fn progress(&self, point: DVec3) -> f64;
 }
 
@@ -20,7 +20,7 @@ const MOST_FACES: usize = 100_000;
 
 impl EditMesh {
     /// The points at which a line from one point of the surface to another crosses edges, in their order and without the
-    /// two: with them, a path for [`EditMesh::knife`]. `None` where the line leaves the surface, as at a border or
+    /// two: with them, a stroke for [`EditMesh::knife`]. `None` where the line leaves the surface, as at a border or
     /// where the surface turns away.
     #[must_use]
     pub fn knife_line(
@@ -71,7 +71,7 @@ impl EditMesh {
     }
 
     /// Whether two points lie on one edge: between them nothing is cut.
-    fn is_beside(&self, a: KnifePoint, b: KnifePoint) -> bool {
+    pub(super) fn is_beside(&self, a: KnifePoint, b: KnifePoint) -> bool {
         match (a, b) {
             (KnifePoint::Edge(a, _), KnifePoint::Edge(b, _)) => a == b,
             (KnifePoint::Vertex(vertex), KnifePoint::Edge(edge, _))
@@ -84,7 +84,11 @@ impl EditMesh {
     }
 
     /// Where the line meets the outline of a face: at vertices that are on it, and on edges between sides.
-    fn crossings(&self, face: FaceId, line: &impl ProjectedLine) -> impl Iterator<Item = KnifePoint> {
+    pub(super) fn crossings(
+        &self,
+        face: FaceId,
+        line: &impl ProjectedLine,
+    ) -> impl Iterator<Item = KnifePoint> {
         self.face_edges(face).flat_map(|edge| {
             let [a, b] = self.edge_vertices(edge);
             let [from, to] = [a, b].map(|vertex| line.side(self.point(vertex)));
@@ -185,7 +189,7 @@ mod tests {
             prop_assert_eq!(path.len(), lines(0) + lines(1), "{:?}", path);
             prop_assume!(path.len() >= 2);
             let before = mesh.vertex_count();
-            let cut = mesh.knife(&path).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let cut = mesh.knife(std::slice::from_ref(&path)).map_err(|error| TestCaseError::fail(error.to_string()))?;
             mesh.check_structure().map_err(TestCaseError::fail)?;
             prop_assert_eq!(mesh.vertex_count() - before, path.len());
             let [from, to] = ends.map(|point| mesh.knife_position(point));

@@ -24,7 +24,7 @@ use trigon_math::Vec3;
 
 const OPERATION: &str = "a knife cut";
 
-/// A point of the path of [`EditMesh::knife`].
+/// A point of a stroke of [`EditMesh::knife`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KnifePoint {
     /// At a vertex.
@@ -42,25 +42,25 @@ pub struct KnifeCut {
     /// The edges of the cut, in ascending order; those that were there already, too, and not those that join a
     /// closed cut to the outline of its face.
     pub edges: Vec<EdgeId>,
-    /// The vertex of each point of the path; `None` within a face where nothing is cut.
+    /// The vertex of each point of the strokes, one stroke after the other; `None` within a face where nothing is cut.
     pub vertices: Vec<Option<VertexId>>,
     /// The new faces. Cut faces keep their ids for one of their parts.
     pub faces: Vec<FaceId>,
-    /// How many connected pieces of the path cut nothing: they end within a face, leave it, or run through a face that
+    /// How many connected pieces of the strokes cut nothing: they end within a face, leave it, or run through a face that
     /// crosses itself as it is seen.
     pub uncut: usize,
 }
 
 impl EditMesh {
-    /// Cuts faces along a path of points on edges, at vertices and within faces. Edges are
-    /// split where the path crosses them, faces where it goes through them.
+    /// Cuts faces along strokes: paths of points on edges, at vertices and within faces. Edges are
+    /// split where strokes cross them, faces where strokes go through them.
     ///
     /// - Consecutive points belong to the same face. If several faces have both, the one with the lowest index
     ///   is cut; between two points of the same edge nothing is cut.
-    /// - A path that ends in its first point is closed. A face that it does not leave is divided into what is inside,
+    /// - A stroke that ends in its first point is closed. A face that it does not leave is divided into what is inside,
     ///   and the ring around it. As faces have no holes, the shortest two lines that cross nothing join the cut to the
     ///   outline: the ring becomes two faces.
-    /// - Where lines cross, they get a vertex.
+    /// - Where lines cross, of one stroke or of several, they get a vertex.
     /// - A piece that ends within a face divides nothing and is left out, as is a line that leaves its face, or runs
     ///   through a face that crosses itself as seen along the axis along which it is seen largest. They are counted.
     /// - Values are interpolated: on edges along them, within faces by mean value coordinates (Floater, "Mean value
@@ -72,13 +72,19 @@ impl EditMesh {
     /// camera meets edges.
     ///
     /// # Errors
-    /// There are fewer than two points; an element does not exist; a position on an edge is not
+    /// No stroke is given, or one has fewer than two points; an element does not exist; a position on an edge is not
     /// within 0…1; consecutive points have no face in common; nothing at all is cut; there would be too many elements.
-    pub fn knife(&mut self, path: &[KnifePoint]) -> Result<KnifeCut, Refusal> {
-        require(path, OPERATION, "a path of at least two points")?;
-        let points: Vec<CutPoint> =
-            path.iter().map(|&point| self.cut_point(point)).collect::<Result<_, _>>()?;
-        let lines: Vec<[CutPoint; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    pub fn knife(&mut self, strokes: &[Vec<KnifePoint>]) -> Result<KnifeCut, Refusal> {
+        require(strokes, OPERATION, "a stroke of at least two points")?;
+        let (mut points, mut lines) = (Vec::new(), Vec::new());
+        for stroke in strokes {
+            require(stroke.get(1..).unwrap_or_default(), OPERATION, "strokes of at least two points")?;
+            let first = points.len();
+            for &point in stroke {
+                points.push(self.cut_point(point)?);
+            }
+            lines.extend(points[first..].windows(2).map(|pair| [pair[0], pair[1]]));
+        }
         self.cut_lines(&lines, &points)
     }
 
@@ -89,7 +95,7 @@ impl EditMesh {
         self.whole(|mesh| {
             let cut = mesh.carry_out(&plan, points)?;
             if cut.edges.is_empty() {
-                let reason = "the path divides no face: it goes from edge to edge, or closes";
+                let reason = "the strokes divide no face: each goes from edge to edge, or closes";
                 return Err(Refusal::NotPossible { operation: OPERATION, reason });
             }
             Ok(cut)

@@ -119,7 +119,7 @@ impl EditMesh {
                 continue;
             }
             let Some(face) = self.common_face(ends) else {
-                let reason = "consecutive points of the path have no face in common; add points between";
+                let reason = "consecutive points of a stroke have no face in common; add points between";
                 return Err(Refusal::NotPossible { operation: OPERATION, reason });
             };
             by_face.entry(face).or_default().push(ends);

@@ -28,8 +28,8 @@ fn a_path_over_a_cube_cuts_the_faces_that_it_crosses() {
     let edges: Vec<EdgeId> = cube.face_edges(FaceId(0)).collect();
     let middle = KnifePoint::Face(FaceId(0), center(&cube, FaceId(0)));
     // From one side to its neighbour, with a corner in the middle of the face.
-    let path = [KnifePoint::Edge(edges[0], 0.25), middle, KnifePoint::Edge(edges[1], 0.5)];
-    let cut = cube.knife(&path).expect("one face");
+    let path = vec![KnifePoint::Edge(edges[0], 0.25), middle, KnifePoint::Edge(edges[1], 0.5)];
+    let cut = cube.knife(&[path]).expect("one face");
     assert_eq!((cut.edges.len(), cut.vertices.len(), cut.faces.len()), (2, 3, 1), "one cut with a corner");
     assert_eq!(counts(&cube), [8 + 3, 12 + 2 + 2, 7], "genus 0");
     let position = center(&edit(primitives::cube(2.0)), FaceId(0));
@@ -44,16 +44,16 @@ fn a_path_over_a_cube_cuts_the_faces_that_it_crosses() {
 fn a_notch_at_an_edge_and_a_diagonal_are_cuts_too() {
     let mut cube = edit(primitives::cube(2.0));
     let corners: Vec<VertexId> = cube.face_vertices(FaceId(0)).collect();
-    let diagonal = [KnifePoint::Vertex(corners[0]), KnifePoint::Vertex(corners[2])];
-    cube.knife(&diagonal).expect("across a face");
+    let diagonal = vec![KnifePoint::Vertex(corners[0]), KnifePoint::Vertex(corners[2])];
+    cube.knife(std::slice::from_ref(&diagonal)).expect("across a face");
     assert_eq!(counts(&cube), [8, 13, 7], "two triangles");
-    let again = cube.knife(&diagonal).expect("along an edge");
+    let again = cube.knife(std::slice::from_ref(&diagonal)).expect("along an edge");
     assert_eq!((again.faces.len(), again.edges.len()), (0, 1), "nothing is cut");
 
     let mut plane = edit(primitives::plane(2.0, 2.0));
     let corners: Vec<VertexId> = plane.face_vertices(FaceId(0)).collect();
     let inside = KnifePoint::Face(FaceId(0), Vec3::ZERO);
-    let cut = plane.knife(&[KnifePoint::Vertex(corners[0]), inside, KnifePoint::Vertex(corners[1])]);
+    let cut = plane.knife(&[vec![KnifePoint::Vertex(corners[0]), inside, KnifePoint::Vertex(corners[1])]]);
     let cut = cut.expect("a triangle at a side");
     assert_eq!(counts(&plane), [5, 6, 2], "a triangle and a hollow pentagon");
     let mut sizes = [plane.face_size(FaceId(0)), plane.face_size(cut.faces[0])];
@@ -72,14 +72,14 @@ fn a_path_that_is_none_is_refused_and_nothing_is_cut() {
     let side = |i: usize| KnifePoint::Edge(edges[i], 0.5);
     let outside = KnifePoint::Face(FaceId(0), Vec3::splat(100.0));
     for (path, reason) in [
-        (vec![side(0), inside], "divides no face"),
+        (vec![side(0), inside], "divide no face"),
         (vec![side(0), outside, side(1)], "on its border or outside"),
         (vec![side(0), KnifePoint::Edge(far[0], 0.5)], "no face in common"),
     ] {
-        let refusal = mesh.knife(&path).expect_err(reason);
+        let refusal = mesh.knife(&[path]).expect_err(reason);
         assert!(refusal.to_string().contains(reason), "{refusal}");
     }
-    let outside = mesh.knife(&[side(0), KnifePoint::Edge(edges[1], 2.0)]);
+    let outside = mesh.knife(&[vec![side(0), KnifePoint::Edge(edges[1], 2.0)]]);
     assert!(matches!(outside, Err(Refusal::OutOfRange { .. })), "beyond the edge");
     assert!(mesh == before, "unchanged");
 }
@@ -141,7 +141,7 @@ fn check_simple_from_above(mesh: &EditMesh) -> Result<(), String> {
 fn a_window_within_a_face_is_cut_out_and_the_ring_around_it_is_two_faces() {
     let mut mesh = polygon(&[[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]]);
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
-    let cut = mesh.knife(&corners.map(|at| within(0, at))).expect("it closes");
+    let cut = mesh.knife(&[corners.map(|at| within(0, at)).to_vec()]).expect("it closes");
     assert_eq!((cut.edges.len(), cut.faces.len(), cut.uncut), (4, 2, 0), "the window and a half of the ring");
     assert_eq!(counts(&mesh), [8, 4 + 4 + 2, 3], "joined by two edges");
     check_simple_from_above(&mesh).expect("polygons");
@@ -174,7 +174,7 @@ fn both_halves_of_a_closed_cut_across_an_edge_are_cut() {
         KnifePoint::Face(face, Vec3::new(x, 0.0, 0.0))
     });
     let [near, far] = [0.25, 0.75].map(|share| KnifePoint::Edge(middle, share));
-    let cut = mesh.knife(&[left, near, right, far, left]).expect("it closes");
+    let cut = mesh.knife(&[vec![left, near, right, far, left]]).expect("it closes");
     assert_eq!((cut.edges.len(), cut.faces.len(), cut.uncut), (4, 2, 0), "a triangle in each face");
     assert_eq!(counts(&mesh), [6 + 4, 7 + 2 + 4, 4], "nothing needs to be joined");
     check_simple_from_above(&mesh).expect("polygons");
@@ -187,8 +187,9 @@ fn pieces_that_end_within_a_face_are_left_out_and_counted() {
     let edges: Vec<EdgeId> = mesh.face_edges(FaceId(0)).collect();
     let [a, b] = [0, 2].map(|number| KnifePoint::Edge(edges[number], 0.5));
     // Across, and back to the middle, and to a point beside the cut.
-    let cut =
-        mesh.knife(&[a, b, within(0, [1.0, 0.1]), within(0, [1.0, -0.2])]).expect("the first line cuts");
+    let cut = mesh
+        .knife(&[vec![a, b, within(0, [1.0, 0.1]), within(0, [1.0, -0.2])]])
+        .expect("the first line cuts");
     assert_eq!((cut.edges.len(), cut.faces.len(), cut.uncut), (1, 1, 1), "one piece of two lines is loose");
     assert!(
         cut.vertices[..2].iter().all(Option::is_some) && cut.vertices[2..] == [None, None],
@@ -201,7 +202,7 @@ fn pieces_that_end_within_a_face_are_left_out_and_counted() {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [1.5, 0.0]];
     let path: Vec<KnifePoint> =
         [KnifePoint::Edge(edges[0], 0.5)].into_iter().chain(corners.map(|at| within(0, at))).collect();
-    let cut = mesh.knife(&path).expect("it closes");
+    let cut = mesh.knife(&[path]).expect("it closes");
     assert_eq!((cut.uncut, cut.faces.len()), (1, 3), "beyond the side that it crosses it is loose");
     check_simple_from_above(&mesh).expect("polygons");
     assert_eq!(counts(&mesh)[0], 4 + 1 + 3 + 1, "a vertex at the crossing");
@@ -226,18 +227,40 @@ fn a_line_outside_a_hollow_face_cuts_nothing() {
     };
     let [left, right, low, bottom] = [at(1.0, 2.0), at(2.0, 2.0), at(2.0, 1.0), at(0.0, 0.0)];
     let before = mesh.clone();
-    let refusal = mesh.knife(&[left, right]).expect_err("over the gap");
-    assert!(refusal.to_string().contains("divides no face") && mesh == before, "{refusal}");
-    let cut = mesh.knife(&[right, left, bottom, low]).expect("two lines inside");
+    let refusal = mesh.knife(&[vec![left, right]]).expect_err("over the gap");
+    assert!(refusal.to_string().contains("divide no face") && mesh == before, "{refusal}");
+    let cut = mesh.knife(&[vec![right, left, bottom, low]]).expect("two lines inside");
     assert_eq!((cut.uncut, cut.edges.len()), (1, 2), "and one outside");
     check_simple_from_above(&mesh).expect("polygons");
 }
 
+#[test]
+fn strokes_that_cross_meet_in_a_vertex_and_loose_ones_that_meet_divide() {
+    let square = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
+    let mut mesh = polygon(&square);
+    let edges: Vec<EdgeId> = mesh.face_edges(FaceId(0)).collect();
+    let side = |i: usize| KnifePoint::Edge(edges[i], 0.5);
+    let cut = mesh.knife(&[vec![side(0), side(2)], vec![side(1), side(3)]]).expect("a cross");
+    assert_eq!((cut.edges.len(), cut.faces.len(), cut.uncut), (4, 3, 0), "four squares");
+    assert_eq!(counts(&mesh), [4 + 4 + 1, 4 + 4 + 4, 4], "with a vertex in the middle");
+    assert!(mesh.vertices().any(|vertex| mesh.position(vertex) == Vec3::ZERO), "there");
+    keeps_affine_values(&mesh).expect("interpolated");
+    // Each ends within the face, but in the same point.
+    let mut mesh = polygon(&square);
+    let inside = within(0, [0.5, 0.25]);
+    let cut = mesh.knife(&[vec![side(0), inside], vec![side(1), inside]]).expect("both together");
+    assert_eq!((cut.edges.len(), cut.faces.len(), cut.uncut), (2, 1, 0), "a corner is cut off");
+    let refusal = mesh.knife(&[vec![side(0)]]).expect_err("a point is no stroke");
+    assert!(refusal.to_string().contains("two points"), "{refusal}");
+}
+
 /// A star-shaped polygon around the origin: radii at equal angles.
 fn star(radii: &[f32]) -> Vec<[f32; 2]> {
-    let step = std::f32::consts::TAU / radii.len() as f32;
-    let at =
-        |(i, radius): (usize, &f32)| [radius * (step * i as f32).cos(), radius * (step * i as f32).sin()];
+    let step = std::f64::consts::TAU / radii.len() as f64;
+    let at = |(i, &radius): (usize, &f32)| {
+        let (sin, cos) = sin_cos(step * i as f64);
+        [radius * cos as f32, radius * sin as f32]
+    };
     radii.iter().enumerate().map(at).collect()
 }
 
@@ -254,7 +277,7 @@ proptest! {
         let mut mesh = polygon(&star(&radii));
         let (before, whole) = (mesh.clone(), area(&mesh));
         let path: Vec<KnifePoint> = points.iter().chain(&points[..1]).map(|&at| within(0, at)).collect();
-        let (cut, mut difference) = mesh.transaction(|mesh| mesh.knife(&path)).expect("it is inside and closed");
+        let (cut, mut difference) = mesh.transaction(|mesh| mesh.knife(&[path])).expect("it is inside and closed");
         prop_assert_eq!(mesh.check_structure(), Ok(()));
         prop_assert_eq!(check_simple_from_above(&mesh), Ok(()));
         prop_assert_eq!(cut.uncut, 0);
@@ -267,6 +290,40 @@ proptest! {
         prop_assert!(mesh == before, "undone");
     }
 
+    /// Straight strokes all across a convex face make as many parts as there are strokes and crossings, and one: each
+    /// crossing is found by its determinants.
+    #[test]
+    fn strokes_all_across_a_face_divide_it_as_an_arrangement_of_lines(
+        ends in prop::collection::vec([0..6usize, 0..6usize], 1..6),
+        shares in prop::collection::vec(prop::array::uniform2(0.1f64..0.9), 6),
+    ) {
+        let mut mesh = polygon(&star(&[2.0; 6]));
+        let (whole, edges) = (area(&mesh), mesh.face_edges(FaceId(0)).collect::<Vec<_>>());
+        let mut strokes: Vec<[KnifePoint; 2]> = Vec::new();
+        for (&[from, to], &[first, second]) in ends.iter().zip(&shares).filter(|([from, to], _)| from != to) {
+            strokes.push([KnifePoint::Edge(edges[from], first), KnifePoint::Edge(edges[to], second)]);
+        }
+        prop_assume!(!strokes.is_empty());
+        let flat = |point: KnifePoint| { let at = mesh.knife_position(point); DVec2::new(at.z, at.x) };
+        let lines: Vec<[DVec2; 2]> = strokes.iter().map(|stroke| stroke.map(flat)).collect();
+        let turns = |[a, b]: [DVec2; 2], [c, d]: [DVec2; 2]| {
+            [c, d].map(|at| (b - a).perp_dot(at - a))
+        };
+        let mut crossings = 0;
+        for (i, &one) in lines.iter().enumerate() {
+            for &other in &lines[..i] {
+                let all = [turns(one, other), turns(other, one)];
+                // No two in one point, and no three.
+                prop_assume!(all.iter().flatten().all(|turn| turn.abs() > 1e-3));
+                crossings += usize::from(all.iter().all(|[a, b]| a * b < 0.0));
+            }
+        }
+        let cut = mesh.knife(&strokes.iter().map(|stroke| stroke.to_vec()).collect::<Vec<_>>()).expect("across");
+        prop_assert_eq!((mesh.face_count(), cut.uncut), (1 + lines.len() + crossings, 0));
+        prop_assert_eq!(check_simple_from_above(&mesh), Ok(()));
+        prop_assert!((area(&mesh) - whole).abs() < 1e-4, "{} was {}", area(&mesh), whole);
+    }
+
     /// A star-shaped cut: what is inside has its area, and is one face.
     #[test]
     fn what_a_closed_cut_encloses_is_one_face(
@@ -275,7 +332,7 @@ proptest! {
         let mut mesh = polygon(&star(&radii));
         let cut_out = star(&inner);
         let path: Vec<KnifePoint> = cut_out.iter().chain(&cut_out[..1]).map(|&at| within(0, at)).collect();
-        let cut = mesh.knife(&path).expect("closed");
+        let cut = mesh.knife(&[path]).expect("closed");
         prop_assert_eq!((cut.edges.len(), mesh.face_count()), (inner.len(), 3), "with two parts of the ring");
         let vertices: Vec<VertexId> = cut.vertices[1..].iter().copied().map(|v| v.expect("all")).collect();
         let enclosed = mesh.face_over(&vertices, |_| false);
@@ -309,9 +366,10 @@ proptest! {
             let faces: Vec<FaceId> = mesh.edge_faces(edge).collect();
             face = faces[choice as usize / 7 % faces.len()];
         }
-        if let Ok((cut, mut difference)) = mesh.transaction(|mesh| mesh.knife(&path)) {
+        let count = path.len();
+        if let Ok((cut, mut difference)) = mesh.transaction(|mesh| mesh.knife(&[path])) {
             prop_assert_eq!(mesh.check_structure(), Ok(()));
-            prop_assert_eq!(cut.vertices.len(), path.len());
+            prop_assert_eq!(cut.vertices.len(), count);
             prop_assert_eq!(mesh.face_count(), before.face_count() + cut.faces.len());
             prop_assert_eq!(keeps_affine_values(&mesh), Ok(()));
             difference.apply(&mut mesh);

@@ -152,8 +152,9 @@ impl FaceNet {
 
     /// Leaves out lines of which no part is inside the face. None crosses the outline.
     fn leave_out_outside(&mut self) {
-        let is_inside: Vec<bool> =
-            (self.outline..self.flat.len()).map(|point| self.contains(self.flat[point])).collect();
+        let is_inside: Vec<bool> = (self.outline..self.flat.len())
+            .map(|point| contains(&self.flat[..self.outline], self.flat[point]))
+            .collect();
         let is_line_inside = |&[a, b]: &[u32; 2]| match (self.is_on_outline(a), self.is_on_outline(b)) {
             (true, true) => self.begins_inside(a, self.flat[b as usize]),
             _ => [a, b]
@@ -171,22 +172,6 @@ impl FaceNet {
                 self.left_out.push(*line);
             }
         }
-    }
-
-    /// Whether a point that is not on the outline is inside it.
-    fn contains(&self, at: DVec2) -> bool {
-        let crossed = self.sides_in_order().filter(|&[from, to]| {
-            let turn = orientation(from, to, at);
-            let is_left_of_it =
-                if to.y > from.y { Orientation::CounterClockwise } else { Orientation::Clockwise };
-            (from.y > at.y) != (to.y > at.y) && turn == is_left_of_it
-        });
-        crossed.count() % 2 == 1
-    }
-
-    fn sides_in_order(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        let outline = &self.flat[..self.outline];
-        outline.iter().copied().zip(outline.iter().copied().cycle().skip(1)).map(|(from, to)| [from, to])
     }
 
     /// Whether the way from a point of the outline to another position begins inside the outline.
@@ -240,4 +225,15 @@ impl FaceNet {
 /// The line between two points, the smaller first; none from a point to itself.
 fn line(a: u32, b: u32) -> Option<[u32; 2]> {
     (a != b).then(|| [a.min(b), a.max(b)])
+}
+
+/// Whether a point that is not on the outline of a polygon is inside it, by the even-odd rule.
+pub(super) fn contains(outline: &[DVec2], at: DVec2) -> bool {
+    let sides = outline.iter().zip(outline.iter().cycle().skip(1));
+    let crossed = sides.filter(|&(&from, &to)| {
+        let is_left_of_it =
+            if to.y > from.y { Orientation::CounterClockwise } else { Orientation::Clockwise };
+        (from.y > at.y) != (to.y > at.y) && orientation(from, to, at) == is_left_of_it
+    });
+    crossed.count() % 2 == 1
 }
