@@ -3,6 +3,7 @@
 use trigon_math::DVec3;
 
 use super::KnifePoint;
+use super::through::Sight;
 use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
 
@@ -13,6 +14,9 @@ pub trait ProjectedLine {
 
     /// How far along the line a point is seen: greater further on; −∞ behind the eye.
     fn progress(&self, point: DVec3) -> f64;
+
+    /// The lines of sight through its ends: where it begins, and where it ends.
+    fn sights(&self) -> [Sight; 2];
 }
 
 /// A surface of that many faces across is cut in several lines.
@@ -121,6 +125,10 @@ mod tests {
 
         fn progress(&self, point: DVec3) -> f64 {
             (self.to - self.from).dot(point - self.from)
+        }
+
+        fn sights(&self) -> [Sight; 2] {
+            [self.from, self.to].map(|origin| Sight { origin, direction: DVec3::NEG_Y })
         }
     }
 

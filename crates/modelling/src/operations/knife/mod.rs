@@ -9,6 +9,7 @@ mod net;
 mod path;
 #[cfg(test)]
 mod tests;
+mod through;
 
 use std::collections::HashMap;
 
@@ -20,6 +21,7 @@ use crate::numbering::sorted_once;
 use crate::refusal::Refusal;
 pub use line::ProjectedLine;
 use path::{CutFace, CutPlan, CutPoint, LineAlong, Site};
+pub use through::Sight;
 use trigon_math::Vec3;
 
 const OPERATION: &str = "a knife cut";
@@ -69,7 +71,7 @@ impl EditMesh {
     /// What is cut is decided without rounding. All parts are simple polygons.
     ///
     /// Unlike in Blender's tool, the points are given; [`EditMesh::knife_line`] determines where a line that is seen from a
-    /// camera meets edges.
+    /// camera meets edges, and [`EditMesh::knife_through`] what it cuts through.
     ///
     /// # Errors
     /// No stroke is given, or one has fewer than two points; an element does not exist; a position on an edge is not
