@@ -219,7 +219,7 @@ fn operations() -> Vec<Operation> {
         operation("connect_vertices", Some("vertex", 4), |_, _| json!({})),
         operation("fill", Some("edge", 3), |_, _| json!({})),
         operation("grid_fill", Needs::Outline, |r, _| json!({ "offset": r.below(4) })),
-        operation("knife", Some("face", 1), |_, at| json!({ "path": at.across() })),
+        operation("knife", Some("face", 1), |_, at| json!({ "strokes": [at.across()] })),
         operation("bridge", Some("edge", 2), |_, _| json!({})),
         operation("project_uvs", Some("face", 3), |r, _| json!({ "normal": (vector(r)) })),
         operation("project_uvs_on_box", Some("face", 3), |r, _| json!({ "center": (vector(r)) })),

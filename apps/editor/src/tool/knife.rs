@@ -1,7 +1,7 @@
 //! K: clicks on vertices, edges and faces draw a cut, which runs straight across the faces between them.
 
 use trigon_document::mesh::math::{DAffine3, DVec2, DVec3};
-use trigon_document::modelling::{EditMesh, FaceId, KnifePoint, ProjectedLine};
+use trigon_document::modelling::{EditMesh, FaceId, KnifePoint, ProjectedLine, Sight};
 use trigon_document::scene::MeshId;
 use trigon_document::scene::camera::{Projector, Ray};
 use trigon_document::{Document, Knife, PathPoint};
@@ -110,8 +110,8 @@ impl KnifeTool {
             return self.modal.refuse(text);
         }
         let object = self.mesh.and_then(|mesh| document.object_of(mesh));
-        let path = path.into_iter().map(path_point).collect();
-        self.modal.show(document, Knife { object, path }.into());
+        let strokes = vec![path.into_iter().map(path_point).collect()];
+        self.modal.show(document, Knife { object, strokes }.into());
         if document.previewed().is_some() { Modal::confirm(document) } else { ToolState::Running }
     }
 
@@ -223,6 +223,11 @@ impl Surface<'_> {
         // Through both lines of sight, in parallel projection, too.
         let normal = rays[0].direction.cross(rays[1].origin + rays[1].direction - rays[0].origin);
         let to_world = self.to_world;
+        let to_mesh = to_world.inverse();
+        let sights = rays.map(|ray| Sight {
+            origin: to_mesh.transform_point3(ray.origin),
+            direction: to_mesh.transform_vector3(ray.direction),
+        });
         (normal != DVec3::ZERO).then_some(ViewLine {
             projector,
             to_world,
@@ -230,6 +235,7 @@ impl Surface<'_> {
             normal,
             from,
             to,
+            sights,
         })
     }
 }
@@ -262,6 +268,8 @@ struct ViewLine {
     normal: DVec3,
     from: DVec2,
     to: DVec2,
+    /// Through both ends, in the space of the mesh.
+    sights: [Sight; 2],
 }
 
 impl ProjectedLine for ViewLine {
@@ -273,6 +281,10 @@ impl ProjectedLine for ViewLine {
         let at = self.projector.to_screen(self.to_world.transform_point3(point));
         // What is behind the eye is not ahead.
         at.map_or(f64::NEG_INFINITY, |at| (at - self.from).dot(self.to - self.from))
+    }
+
+    fn sights(&self) -> [Sight; 2] {
+        self.sights
     }
 }
 

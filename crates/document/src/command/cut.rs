@@ -182,18 +182,19 @@ pub fn edge_towards(mesh: &EditMesh, vertex: VertexId, direction: DVec3) -> Opti
     best.map(|(_, edge)| edge)
 }
 
-/// Cuts faces along a path of points, and selects the edges of the cut. Consecutive points must belong to the
-/// same face; the path begins and ends at vertices or on edges.
+/// Cuts faces along strokes, and selects the edges of the cut. Consecutive points of a stroke belong to the same face.
+/// A stroke that ends in its first point is closed. Where strokes cross, they get a vertex. Pieces that end within a face
+/// cut nothing; a warning counts them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Knife {
     /// The object whose mesh is cut. Default: the only edited one.
     pub object: Option<ObjectName>,
-    /// At least two points.
-    pub path: Vec<PathPoint>,
+    /// Paths of at least two points each.
+    pub strokes: Vec<Vec<PathPoint>>,
 }
 
-/// A point of a knife's path.
+/// A point of a knife's stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "at", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PathPoint {
@@ -233,13 +234,32 @@ impl Action for Knife {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let object = self.object.as_ref().map(|name| name.find(change.scene())).transpose()?;
         let id = change.only_edited_mesh(object, "cutting")?;
-        let path: Vec<KnifePoint> = self.path.iter().map(|&point| point.into()).collect();
-        let cut = change.edit(id, |mesh| Ok(mesh.knife(&path)?))?;
-        let (faces, kind) = (cut.faces.len(), change.selection().kind());
+        let points = |stroke: &Vec<PathPoint>| stroke.iter().map(|&point| point.into()).collect();
+        let strokes: Vec<Vec<KnifePoint>> = self.strokes.iter().map(points).collect();
+        let cut = change.edit(id, |mesh| Ok(mesh.knife(&strokes)?))?;
+        let kind = change.selection().kind();
         let (selections, meshes) = change.selection_and_meshes();
         if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
             selection.select(mesh, kind, &Elements::Edges(cut.edges));
         }
-        Ok(Outcome::counted("made", faces, ["face", "faces"]))
+        Ok(cut_outcome(cut.faces.len(), cut.uncut))
     }
+
+    fn bytes(&self) -> usize {
+        self.strokes.iter().map(|stroke| size_of::<PathPoint>() * stroke.len()).sum()
+    }
+}
+
+/// How many faces a cut made, with a warning if some of it cut nothing.
+fn cut_outcome(faces: usize, uncut: usize) -> Outcome {
+    let mut outcome = Outcome::counted("made", faces, ["face", "faces"]);
+    if uncut > 0 {
+        let pieces = if uncut == 1 {
+            "1 piece of the cut was".into()
+        } else {
+            format!("{uncut} pieces of the cut were")
+        };
+        outcome.warnings.push(format!("{pieces} left out: a cut goes from edge to edge, or closes"));
+    }
+    outcome
 }

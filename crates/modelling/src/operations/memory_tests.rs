@@ -1,6 +1,6 @@
 //! Operations whose result would take more memory than is allowed are refused before they change anything.
 
-use trigon_math::{DAffine3, DVec3, Plane};
+use trigon_math::{DAffine3, DVec3, Plane, Vec3};
 use trigon_mesh::primitives;
 
 use super::*;
@@ -32,7 +32,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 27] = [
+const OPERATIONS: [(&str, Operation); 28] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -69,6 +69,17 @@ const OPERATIONS: [(&str, Operation); 27] = [
     ("bisect", |mesh| {
         let settings = BisectSettings { fill: true, ..BisectSettings::default() };
         mesh.bisect(&faces(mesh), DVec3::ZERO, DVec3::new(1.0, 0.1, 0.2), &settings).map(drop)
+    }),
+    ("knife", |mesh| {
+        // A hole in each face.
+        let hole = |face: FaceId| {
+            let corners: Vec<Vec3> = mesh.face_vertices(face).map(|vertex| mesh.position(vertex)).collect();
+            let center = corners.iter().sum::<Vec3>() / corners.len() as f32;
+            let all = corners.iter().chain(&corners[..1]);
+            all.map(|&corner| KnifePoint::Face(face, center.lerp(corner, 0.5))).collect()
+        };
+        let strokes: Vec<Vec<KnifePoint>> = mesh.faces().map(hole).collect();
+        mesh.knife(&strokes).map(drop)
     }),
     ("wireframe", |mesh| mesh.wireframe_faces(&faces(mesh), &WireframeSettings::default()).map(drop)),
     ("poke", |mesh| mesh.poke_faces(&faces(mesh), 0.1).map(drop)),

@@ -2,7 +2,7 @@
 //! non-manifold or open.
 
 use proptest::prelude::*;
-use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane, Vec3};
 
 use super::*;
 use crate::modifier::{DecimateSettings, SolidifySettings};
@@ -14,6 +14,9 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
     all.enumerate().filter(|(i, _)| bits >> (i % 64) & 1 != 0).map(|(_, element)| element).collect()
 }
 
+/// How many kinds of operations there are.
+const KINDS: u8 = 42;
+
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
     let vertices: Vec<VertexId> = some(mesh.vertices(), bits);
@@ -22,7 +25,7 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
     let center = DVec3::new(a, b, 0.5);
     let plane = Plane::from_point_and_normal(center * 0.5, DVec3::new(1.0, b, a)).expect("a direction");
     let falloff = Falloff { radius: 1.0 + a, ..Falloff::default() };
-    match kind % 41 {
+    match kind % KINDS {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
             let rotation = Transform::Rotate {
@@ -110,6 +113,21 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
         37 => mesh.straighten_uvs(0, &edges).map(drop),
         38 => mesh.average_uv_island_scale(&faces, 0).map(drop),
         39 => mesh.mark_seams_by_angle(&edges, b.abs()).map(drop),
+        40 => {
+            let parts = |face: FaceId| {
+                let corners: Vec<Vec3> =
+                    mesh.face_vertices(face).map(|vertex| mesh.position(vertex)).collect();
+                let center = corners.iter().sum::<Vec3>() / corners.len() as f32;
+                let point = |(i, &corner): (usize, &Vec3)| {
+                    KnifePoint::Face(face, center.lerp(corner, [0.5, b.abs() as f32 / 2.0][i % 2]))
+                };
+                // Closed or not; it may cross the edge where it begins.
+                let edge = mesh.face_edges(face).next().map(|edge| KnifePoint::Edge(edge, a.abs()));
+                edge.into_iter().chain(corners.iter().enumerate().map(point)).collect()
+            };
+            let strokes: Vec<Vec<KnifePoint>> = faces.iter().map(|&face| parts(face)).collect();
+            mesh.knife(&strokes).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -145,7 +163,7 @@ proptest! {
             }
             prop_assert_eq!(mesh.check_structure(), Ok(()), "after {:?}", s);
             // Marks and windings move no place, and no value from it.
-            if (5..15).contains(&(kind % 41)) {
+            if (5..15).contains(&(kind % KINDS)) {
                 prop_assert!(keeps_affine_values(&before).is_err() || keeps_affine_values(&mesh).is_ok(), "{:?}", s);
             }
         }

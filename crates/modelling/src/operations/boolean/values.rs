@@ -8,17 +8,17 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
 
 /// Corners and their weights, which add up to 1.
-type CornerWeights = SmallVec<[(CornerId, f64); 3]>;
+pub(in crate::operations) type CornerWeights = SmallVec<[(CornerId, f64); 3]>;
 
 /// A face that others are parts of, or a triangle of it.
-pub(super) struct SourceFace<'s> {
+pub(in crate::operations) struct SourceFace<'s> {
     corners: Vec<CornerId>,
     /// The triangles, as numbers of corners.
     triangles: &'s [[u32; 3]],
 }
 
 impl<'s> SourceFace<'s> {
-    pub(super) fn new(mesh: &EditMesh, face: FaceId, triangles: &'s [[u32; 3]]) -> Self {
+    pub(in crate::operations) fn new(mesh: &EditMesh, face: FaceId, triangles: &'s [[u32; 3]]) -> Self {
         Self { corners: mesh.face_corners(face).collect(), triangles }
     }
 
@@ -32,7 +32,7 @@ impl<'s> SourceFace<'s> {
     }
 
     /// What a value in a position of the face is made of.
-    pub(super) fn parts_at(&self, mesh: &EditMesh, position: DVec3) -> CornerWeights {
+    pub(in crate::operations) fn parts_at(&self, mesh: &EditMesh, position: DVec3) -> CornerWeights {
         let of = |triangle: &[u32; 3]| {
             let corners = triangle.map(|corner| self.corners[corner as usize]);
             let weights = weights(corners.map(|corner| mesh.point(mesh.corner_vertex(corner))), position)?;

@@ -17,7 +17,7 @@ use crate::operations::copy::CopiedElements;
 use crate::refusal::Refusal;
 
 /// The bits of a position, the same for both zeros.
-fn key(position: Vec3) -> [u32; 3] {
+pub(in crate::operations) fn position_key(position: Vec3) -> [u32; 3] {
     (position + Vec3::ZERO).to_array().map(f32::to_bits)
 }
 
@@ -27,12 +27,12 @@ pub(super) struct Given(HashSet<[u32; 3]>);
 impl Given {
     pub(super) fn of(mesh: &EditMesh, tools: &[EditMesh]) -> Self {
         let all = std::iter::once(mesh).chain(tools);
-        Self(all.flat_map(|mesh| mesh.vertices().map(|vertex| key(mesh.position(vertex)))).collect())
+        Self(all.flat_map(|mesh| mesh.vertices().map(|vertex| position_key(mesh.position(vertex)))).collect())
     }
 
     /// Whether a position rounds to one of them.
     pub(super) fn has(&self, position: DVec3) -> bool {
-        self.0.contains(&key(position.as_vec3()))
+        self.0.contains(&position_key(position.as_vec3()))
     }
 }
 

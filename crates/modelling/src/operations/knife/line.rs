@@ -3,6 +3,7 @@
 use trigon_math::DVec3;
 
 use super::KnifePoint;
+use super::through::Sight;
 use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
 
@@ -11,8 +12,11 @@ pub trait ProjectedLine {
     /// On which side of the line a point is: linear in space, and 0 on it.
     fn side(&self, point: DVec3) -> f64;
 
-    /// How far along the line a point is seen: greater further on.
+    /// How far along the line a point is seen: greater further on; −∞ behind the eye.
     fn progress(&self, point: DVec3) -> f64;
+
+    /// The lines of sight through its ends: where it begins, and where it ends.
+    fn sights(&self) -> [Sight; 2];
 }
 
 /// A surface of that many faces across is cut in several lines.
@@ -20,7 +24,7 @@ const MOST_FACES: usize = 100_000;
 
 impl EditMesh {
     /// The points at which a line from one point of the surface to another crosses edges, in their order and without the
-    /// two: with them, a path for [`EditMesh::knife`]. `None` where the line leaves the surface, as at a border or
+    /// two: with them, a stroke for [`EditMesh::knife`]. `None` where the line leaves the surface, as at a border or
     /// where the surface turns away.
     #[must_use]
     pub fn knife_line(
@@ -71,7 +75,7 @@ impl EditMesh {
     }
 
     /// Whether two points lie on one edge: between them nothing is cut.
-    fn is_beside(&self, a: KnifePoint, b: KnifePoint) -> bool {
+    pub(super) fn is_beside(&self, a: KnifePoint, b: KnifePoint) -> bool {
         match (a, b) {
             (KnifePoint::Edge(a, _), KnifePoint::Edge(b, _)) => a == b,
             (KnifePoint::Vertex(vertex), KnifePoint::Edge(edge, _))
@@ -84,7 +88,11 @@ impl EditMesh {
     }
 
     /// Where the line meets the outline of a face: at vertices that are on it, and on edges between sides.
-    fn crossings(&self, face: FaceId, line: &impl ProjectedLine) -> impl Iterator<Item = KnifePoint> {
+    pub(super) fn crossings(
+        &self,
+        face: FaceId,
+        line: &impl ProjectedLine,
+    ) -> impl Iterator<Item = KnifePoint> {
         self.face_edges(face).flat_map(|edge| {
             let [a, b] = self.edge_vertices(edge);
             let [from, to] = [a, b].map(|vertex| line.side(self.point(vertex)));
@@ -117,6 +125,10 @@ mod tests {
 
         fn progress(&self, point: DVec3) -> f64 {
             (self.to - self.from).dot(point - self.from)
+        }
+
+        fn sights(&self) -> [Sight; 2] {
+            [self.from, self.to].map(|origin| Sight { origin, direction: DVec3::NEG_Y })
         }
     }
 
@@ -185,12 +197,12 @@ mod tests {
             prop_assert_eq!(path.len(), lines(0) + lines(1), "{:?}", path);
             prop_assume!(path.len() >= 2);
             let before = mesh.vertex_count();
-            let cut = mesh.knife(&path).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            let cut = mesh.knife(std::slice::from_ref(&path)).map_err(|error| TestCaseError::fail(error.to_string()))?;
             mesh.check_structure().map_err(TestCaseError::fail)?;
             prop_assert_eq!(mesh.vertex_count() - before, path.len());
             let [from, to] = ends.map(|point| mesh.knife_position(point));
             let along = to - from;
-            for &vertex in &cut.vertices {
+            for vertex in cut.vertices.iter().flatten().copied() {
                 let off = along.cross(mesh.point(vertex) - from).length() / along.length();
                 prop_assert!(off < 1e-5, "{} beside the line", off);
             }

@@ -79,7 +79,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 49] = [
+const OPERATIONS: [Operation; 50] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -177,8 +177,12 @@ const OPERATIONS: [Operation; 49] = [
     operation("knife", Promise::Euler, |mesh, on| {
         let corner = on.corner(mesh).ok_or(Refusal::TooMany)?;
         let across = mesh.corner_edge(mesh.next_corner(corner));
-        let path = [KnifePoint::Vertex(mesh.corner_vertex(corner)), KnifePoint::Edge(across, 0.5)];
-        mesh.knife(&path).map(drop)
+        let path = vec![KnifePoint::Vertex(mesh.corner_vertex(corner)), KnifePoint::Edge(across, 0.5)];
+        mesh.knife(&[path]).map(drop)
+    }),
+    operation("knife within faces", Promise::Shape, |mesh, on| {
+        let strokes: Vec<Vec<KnifePoint>> = on.faces.iter().map(|&face| star_within(mesh, face)).collect();
+        mesh.knife(&strokes).map(drop)
     }),
     operation("fill edges", Promise::Nothing, |mesh, on| mesh.fill_edges(&on.edges).map(drop)),
     operation("fill vertices", Promise::Nothing, |mesh, on| mesh.fill_vertices(&on.vertices).map(drop)),
@@ -222,6 +226,17 @@ const OPERATIONS: [Operation; 49] = [
         boolean_with_a_copy(mesh, on, BooleanOperation::Intersection)
     }),
 ];
+
+/// A closed cut within a face: each second corner is near its middle, so that it is hollow.
+fn star_within(mesh: &EditMesh, face: FaceId) -> Vec<KnifePoint> {
+    let corners: Vec<Vec3> = mesh.face_vertices(face).map(|vertex| mesh.position(vertex)).collect();
+    let center = corners.iter().sum::<Vec3>() / corners.len() as f32;
+    let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+    let points = ends.flat_map(|(&a, &b)| [center.lerp(a, 0.3), center.lerp((a + b) / 2.0, 0.05)]);
+    let mut stroke: Vec<KnifePoint> = points.map(|position| KnifePoint::Face(face, position)).collect();
+    stroke.extend(stroke.first().copied());
+    stroke
+}
 
 /// Every third time it is moved along the axes by halves of a metre, and turned otherwise.
 fn boolean_with_a_copy(mesh: &mut EditMesh, on: &Chosen, operation: BooleanOperation) -> Result<(), Refusal> {
