@@ -17,7 +17,7 @@ import numpy as np
 import shards
 import trigon3d
 
-SUFFIXES = {".obj", ".gltf", ".glb", ".ply", ".stl", ".off"}
+SUFFIXES = {".obj", ".gltf", ".glb", ".ply", ".stl", ".off", ".3mf"}
 
 
 @dataclasses.dataclass(frozen=True)

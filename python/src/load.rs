@@ -10,7 +10,7 @@ use crate::camera::PyCamera;
 use crate::errors::{load_error, value_error, warn};
 use crate::scene::PyScene;
 
-/// Loads a model: OBJ, glTF, GLB, PLY, STL or OFF.
+/// Loads a model: OBJ, glTF, GLB, PLY, STL, OFF or 3MF.
 ///
 /// What is missing or wrong in the file and could be left out is a `TrigonWarning`. `up` is the axis that points up,
 /// such as "+Z", if it is not that of the format.

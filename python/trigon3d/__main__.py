@@ -10,7 +10,7 @@ import trigon3d
 def main() -> int:
     """The exit code: 0 done, 1 a file could not be read, drawn or written, 2 the command line is invalid."""
     parser = argparse.ArgumentParser(prog="python -m trigon3d", description="Draw a model to a PNG file.")
-    parser.add_argument("model", help="OBJ, glTF, GLB, PLY, STL or OFF")
+    parser.add_argument("model", help="OBJ, glTF, GLB, PLY, STL, OFF or 3MF")
     parser.add_argument("--output", required=True, metavar="FILE.png")
     parser.add_argument("--resolution", default="1000,600", metavar="W,H")
     parser.add_argument("--samples", type=int, default=3, help="along each side of a pixel, 1 to 4")

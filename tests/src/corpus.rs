@@ -16,7 +16,7 @@ fn folder() -> PathBuf {
 fn models() -> Vec<String> {
     let is_model = |path: &Path| {
         path.extension().is_some_and(|ending| {
-            ["obj", "gltf", "glb", "ply", "stl", "off"].iter().any(|known| ending == *known)
+            ["obj", "gltf", "glb", "ply", "stl", "off", "3mf"].iter().any(|known| ending == *known)
         })
     };
     let mut models = Vec::new();

@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SCRIPT", requires = "output")]
     pub(crate) run: Option<PathBuf>,
 
-    /// Where the result of a script goes: .glb, .obj, .ply, .stl or .off
+    /// Where the result of a script goes: .glb, .obj, .ply, .stl, .off or .3mf
     ///
     /// A .glb is the editor's own file, which other programs open, too; the others, and a .glb with
     /// one of --up, --scale, --selection-only and --no-modifiers, are for other programs alone, and what they cannot
@@ -34,11 +34,11 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) accept_losses: bool,
 
-    /// Which axis is up in the result: +X, -X, +Y, -Y, +Z or -Z [default: +Z for .stl, +Y for others].
+    /// Which axis is up in the result: +X, -X, +Y, -Y, +Z or -Z [default: +Z for .stl and .3mf, +Y for others].
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     pub(crate) up: Option<UpAxis>,
 
-    /// Which axis is up in the files that are opened or imported [default: +Z in .stl, +Y in others].
+    /// Which axis is up in the files that are opened or imported [default: +Z in .stl and .3mf, +Y in others].
     ///
     /// The editor itself has +Y up: files with another axis are turned, without rounding.
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]

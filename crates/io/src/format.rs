@@ -18,6 +18,8 @@ pub enum Format {
     Stl,
     /// The object file format of Geomview, as text.
     Off,
+    /// The format of 3D printing: a zip archive of XML.
+    ThreeMf,
 }
 
 /// One format as printed by `--list-readers`.

@@ -1,5 +1,5 @@
-//! Model and image files for trigon. It reads OBJ with MTL, glTF and GLB, PLY, STL, OFF, PNG, JPEG, WebP and
-//! Radiance HDR. It writes OBJ, GLB, PLY, STL, OFF, PNG, JPEG, WebP, OpenEXR and NumPy arrays, and sequences of
+//! Model and image files for trigon. It reads OBJ with MTL, glTF and GLB, PLY, STL, OFF, 3MF, PNG, JPEG, WebP and
+//! Radiance HDR. It writes OBJ, GLB, PLY, STL, OFF, 3MF, PNG, JPEG, WebP, OpenEXR and NumPy arrays, and sequences of
 //! images as APNG and GIF. A capture stores everything that a frame was drawn from, and its image, in one file.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings; an unusable file is an error.
@@ -31,8 +31,8 @@
 //!
 //! # Conventions
 //! Right-handed, metres, counter-clockwise faces, as in glTF and OBJ. Coordinates are those of the file;
-//! `Scene::up` says which axis is up: +Z in STL, +Y in all others, or what [`LoadOptions::up`] says. PLY, STL
-//! and OFF define no unit: their numbers are used as they are. In texture
+//! `Scene::up` says which axis is up: +Z in STL and 3MF, +Y in all others, or what [`LoadOptions::up`] says. PLY, STL
+//! and OFF define no unit: their numbers are used as they are; those of a 3MF become metres. In texture
 //! coordinates v = 0 is the top edge, and v grows downwards. Colours are linear light. A model far from the
 //! origin is moved to the origin, and its node gets the offset. One node of the file is one node of the scene.
 

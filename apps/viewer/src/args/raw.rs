@@ -70,7 +70,7 @@ pub(crate) type Check = Option<CheckPurpose>;
 #[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, disable_help_flag = true)]
 #[command(args_override_self = true, max_term_width = 100)]
 pub(crate) struct RawArgs {
-    /// Models to show: OBJ, glTF, GLB, PLY, STL, OFF (see --list-readers); - is standard input, if an image
+    /// Models to show: OBJ, glTF, GLB, PLY, STL, OFF, 3MF (see --list-readers); - is standard input, if an image
     /// is written
     #[arg(value_name = "FILES")]
     pub(crate) files: Vec<PathBuf>,
@@ -199,7 +199,7 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "NAME", help_heading = "Files")]
     pub(crate) variant: Option<String>,
 
-    /// The axis of the model that points up; sky, grid and view follow it [default: +Z for STL, +Y for others]
+    /// The axis of the model that points up; sky, grid and view follow it [default: +Z for STL and 3MF, +Y for others]
     ///
     /// So do the environment and what metals mirror; coordinates and the
     /// file's own lamps and cameras stay as they are. Files shown together have the axis of the first: a file
@@ -381,7 +381,7 @@ pub(crate) struct RawArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "debug", default_value = "info", value_name = "LEVEL", help_heading = "Program")]
     pub(crate) verbose: Level,
 
-    /// Read all files as this format, whatever their names: obj, gltf, glb, ply, stl or off
+    /// Read all files as this format, whatever their names: obj, gltf, glb, ply, stl, off or 3mf
     #[arg(long, value_name = "FORMAT", value_parser = values::reader, help_heading = "Files")]
     pub(crate) force_reader: Option<Format>,
 

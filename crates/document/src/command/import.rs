@@ -19,7 +19,7 @@ pub struct ImportFile {
     /// The path of the file.
     pub path: String,
     /// The axis that is up in the file, such as "+Z", or a direction such as "0,1,0.5"; by default that of its
-    /// format: +Z in STL, +Y in all others. Objects of another axis than +Y come below a node that turns them
+    /// format: +Z in STL and 3MF, +Y in all others. Objects of another axis than +Y come below a node that turns them
     /// without rounding.
     #[serde(serialize_with = "write_axis", deserialize_with = "read_axis")]
     #[schemars(with = "Option<String>")]

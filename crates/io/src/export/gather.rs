@@ -97,6 +97,11 @@ impl<'a> Object<'a> {
         object
     }
 
+    /// From the mesh's space to the file's.
+    pub(crate) fn map(&self) -> DAffine3 {
+        self.map
+    }
+
     /// Triangulates the faces.
     pub(crate) fn cut(&mut self) {
         (self.face_sizes, self.corners, self.sources) = Default::default();

@@ -48,11 +48,11 @@ pub struct ExportOptions<'a> {
     /// The nodes to write, with their transforms; all by default. Their children are written only
     /// if they are named, too.
     pub nodes: Option<Vec<NodeId>>,
-    /// Units of the file per metre: 1 is what glTF defines. Must be positive and finite, otherwise it counts
-    /// as 1.
+    /// Units of the file per metre: 1 is what glTF defines. A 3MF says that its unit is the millimetre: there it is a
+    /// factor, and 1 is the true size. Must be positive and finite, otherwise it counts as 1.
     pub scale: f64,
-    /// The axis that points up in the file; by default that of its [format](crate::Format::up), +Z for STL and +Y
-    /// for all others. A scene in which another axis is up ([`Scene::up`]) is turned, exactly between the axes of
+    /// The axis that points up in the file; by default that of its [format](crate::Format::up), +Z for STL and 3MF,
+    /// +Y for all others. A scene in which another axis is up ([`Scene::up`]) is turned, exactly between the axes of
     /// the world.
     pub up: Option<UpAxis>,
     /// The file that the scene came from: images are taken from it as they were encoded. Others are

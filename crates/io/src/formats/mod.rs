@@ -6,6 +6,7 @@ mod obj;
 mod off;
 mod ply;
 mod stl;
+mod three_mf;
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -147,6 +148,22 @@ static ROWS: &[FormatRow] = &[
             off::write_off,
         ),
     },
+    FormatRow {
+        reader: Reader {
+            format: Format::ThreeMf,
+            name: "3MF",
+            extensions: &["3mf"],
+            // As in the build volume of its specification.
+            up: UpAxis::Z,
+            reads: "objects, components and items of the build in their units; base materials, colour groups; models in several parts",
+        },
+        sniff: three_mf::is_three_mf,
+        import: three_mf::import_three_mf,
+        writing: Writing::Objects(
+            Holds { materials: true, colors: true, objects: true, ..FACES },
+            three_mf::write_three_mf,
+        ),
+    },
 ];
 
 /// Every model format that can be read.
@@ -174,7 +191,7 @@ impl Format {
     }
 
     /// The axis that points up in files of the format, unless somebody knows better
-    /// ([`LoadOptions::up`](crate::LoadOptions::up)): +Z in STL, +Y in all others.
+    /// ([`LoadOptions::up`](crate::LoadOptions::up)): +Z in STL and 3MF, +Y in all others.
     #[must_use]
     pub fn up(self) -> UpAxis {
         self.row().reader.up
@@ -186,9 +203,8 @@ impl Format {
 }
 
 /// Formats that people will try: these are named instead of misread.
-const UNSUPPORTED: &[&str] = &[
-    "fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step", "stp", "iges", "3mf",
-];
+const UNSUPPORTED: &[&str] =
+    &["fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step", "stp", "iges"];
 
 /// The format of a file, or why it is not supported. The magic of a GLB has priority over the name;
 /// then the name decides; then the contents.

@@ -25,6 +25,7 @@ mod source;
 mod statements;
 mod stl;
 mod texture;
+mod three_mf;
 mod tobj_crate;
 mod unneeded;
 mod up;

@@ -53,9 +53,10 @@ fn read(format: Format, bytes: &[u8], up: Option<UpAxis>) -> Scene {
 }
 
 #[test]
-fn stl_has_z_up_and_all_others_have_y() {
+fn formats_of_printers_have_z_up_and_all_others_have_y() {
     for reader in readers() {
-        let expected = if reader.format == Format::Stl { UpAxis::Z } else { UpAxis::Y };
+        let is_printed = matches!(reader.format, Format::Stl | Format::ThreeMf);
+        let expected = if is_printed { UpAxis::Z } else { UpAxis::Y };
         assert_eq!(reader.up, expected, "{}", reader.name);
     }
     for writer in writers() {

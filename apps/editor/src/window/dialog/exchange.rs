@@ -152,6 +152,9 @@ fn held_by(format: Format) -> &'static str {
             "Keeps polygons, normals, texture coordinates and colors of vertices, as one mesh. Loses materials, objects, lights and cameras."
         }
         Format::Stl => "Keeps triangles alone, as one mesh, for printing: +Z is up. Loses everything else.",
+        Format::ThreeMf => {
+            "Keeps triangles, objects with their copies, colors and names of materials, for printing: in millimeters, +Z is up. Loses images, normals, lights and cameras."
+        }
         Format::Off => "Keeps polygons alone, as one mesh. Loses everything else.",
         _ => "Keeps objects, materials, images, lights and cameras. Loses polygons: they become triangles.",
     }

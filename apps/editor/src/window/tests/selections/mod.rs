@@ -55,7 +55,7 @@ fn models(folder: &Path) -> Vec<PathBuf> {
     entries.sort();
     let is_model = |path: &PathBuf| {
         let ending = path.extension().and_then(|ending| ending.to_str());
-        ending.is_some_and(|ending| ["obj", "glb", "gltf", "ply", "stl", "off"].contains(&ending))
+        ending.is_some_and(|ending| ["obj", "glb", "gltf", "ply", "stl", "off", "3mf"].contains(&ending))
     };
     entries
         .into_iter()
