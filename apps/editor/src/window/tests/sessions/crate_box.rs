@@ -52,9 +52,9 @@ fn a_crate_is_unwrapped_and_painted() {
         let crate_mesh = mesh(document, "crate");
         assert_eq!((euler(crate_mesh), open_edges(crate_mesh)), (2, 0), "one closed surface");
         assert_eq!(crate_mesh.uv_overlaps(0), [], "nothing lies on anything else in the image");
-        let layout = load_image(&folder.join("layout.png"), &Limits::default()).expect("an image");
+        let layout = load_image(folder.join("layout.png"), &Limits::default()).expect("an image");
         assert_eq!((layout.width, layout.height), (2048, 2048));
-        let exported = load(&folder.join("crate.glb"), &LoadOptions::default()).expect("as written");
+        let exported = load(folder.join("crate.glb"), &LoadOptions::default()).expect("as written");
         let (_, material) = exported.scene.materials.iter().next().expect("one");
         assert!(material.base_color_texture.is_some(), "with its image");
     });

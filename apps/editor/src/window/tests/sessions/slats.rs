@@ -68,7 +68,7 @@ fn a_chair_is_made_by_a_mirror_and_an_array() {
     saved_and_reopened(CHAIR, |document, folder| {
         assert_eq!(volume(mesh(document, "seat")) as f32, 0.8, "2 m by 0.2 m by 2 m");
         for (file, legs, slats) in [("chair.obj", 4, 7), ("parts.obj", 1, 1)] {
-            let exported = load(&folder.join(file), &LoadOptions::default()).expect("as written");
+            let exported = load(folder.join(file), &LoadOptions::default()).expect("as written");
             let meshes = exported.scene.meshes().iter().map(|(_, asset)| EditMesh::from_mesh(asset.mesh()).0);
             let meshes: Vec<EditMesh> = meshes.collect();
             assert!(meshes.iter().all(|mesh| open_edges(mesh) == 0), "{file}: closed");

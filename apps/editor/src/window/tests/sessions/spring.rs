@@ -46,7 +46,7 @@ const SPRING: &str = "
 fn a_spring_is_swept_along_a_screw_and_exported_for_printing() {
     saved_and_reopened(SPRING, |document, folder| {
         assert_eq!(mesh(document, "spring").modifiers().len(), 1, "the screw stays a modifier");
-        let printed = load(&folder.join("spring.stl"), &LoadOptions::default()).expect("as written");
+        let printed = load(folder.join("spring.stl"), &LoadOptions::default()).expect("as written");
         let (_, asset) = printed.scene.meshes().iter().next().expect("one mesh");
         let (solid, _) = EditMesh::from_mesh(asset.mesh());
         assert!(solid.is_watertight(), "both ends are closed");
