@@ -157,6 +157,8 @@ pub(crate) enum FileRequest {
         slot: TextureSlot,
         path: PathBuf,
     },
+    /// Adds an image to the scene, to model after.
+    Reference(PathBuf),
     /// Writes an image, in the format that the ending of its name says.
     SaveImage {
         kind: ImageKind,
@@ -173,6 +175,8 @@ pub(crate) enum FileAction {
     SaveAs,
     Import,
     Export,
+    /// Asks for an image to model after.
+    Reference,
     Quit,
 }
 

@@ -16,8 +16,12 @@ const FACE: Color32 = Color32::from_rgba_premultiplied(90, 57, 0, 90);
 const OVERLAP: Color32 = Color32::from_rgba_premultiplied(120, 0, 60, 120);
 const SEAM: Color32 = Color32::from_rgb(219, 37, 18);
 
+const PINNED: Color32 = Color32::from_rgb(230, 30, 30);
+
 /// Of a vertex, in points.
 const DOT: f32 = 2.5;
+/// Of a pinned corner.
+const PIN: f32 = 4.0;
 
 /// More corners than this take seconds to draw: then only what is selected is.
 const MOST_CORNERS: usize = 60_000;
@@ -177,6 +181,14 @@ impl<'d> Drawn<'d> {
         }
         if self.kind == ElementKind::Vertex {
             self.draw_vertices(painter);
+        }
+        self.draw_pins(painter);
+    }
+
+    fn draw_pins(&self, painter: &Painter) {
+        let corners = self.faces.iter().flat_map(|&face| self.mesh.face_corners(face));
+        for corner in corners.filter(|&corner| self.mesh.is_uv_pinned(UV_SET, corner)) {
+            painter.circle_filled(self.at(corner), PIN, PINNED);
         }
     }
 

@@ -1,17 +1,26 @@
-//! Images that are dropped onto the window: textures of what they are dropped on, or pictures in the scene.
+//! Images that are dropped onto the window: textures of what they are dropped on, or pictures in the scene. Also images to model
+//! after.
 
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::path::{Path, PathBuf};
 
 use trigon_document::{
-    AddMaterial, AddObject, AssignTexture, MaterialName, ObjectName, SetMaterial, Shape, SurfaceShading,
-    TextureSource,
+    AddMaterial, AddObject, AssignTexture, MaterialName, ObjectName, Rotation, SetMaterial, SetTransform, Shape,
+    SurfaceAlpha, SurfaceShading, TextureSource,
 };
 use trigon_io::{Limits, load_image};
 use trigon_window::Stage;
+use trigon_window::scene::math::DQuat;
 
 use super::dialog::IMAGES;
 use super::editor::{Editor, Message};
 use crate::request::{DisplayMode, SolidColor};
+
+/// Of images to model after.
+const OPACITY: f32 = 0.5;
+
+/// Turns what lies on the floor to face along +Z: a quarter about x.
+const UPRIGHT: DQuat = DQuat::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2);
 
 /// Whether a file is an image, by the ending of its name.
 pub(super) fn is_image(path: &Path) -> bool {
@@ -53,6 +62,30 @@ impl Editor {
             DisplayMode::Wireframe | DisplayMode::Matcap => self.view.display = DisplayMode::Textured,
             DisplayMode::Textured | DisplayMode::Rendered => {}
         }
+    }
+
+    /// Adds an image to model after: half transparent, upright, and facing the view if that is a side.
+    pub(super) fn add_reference(&mut self, stage: &mut Stage, path: &Path) {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        self.add_picture(&name, path);
+        if !matches!(self.message, Message::Refusal(_)) {
+            let texture = Some(TextureSource::File { path: path.to_string_lossy().into_owned() });
+            self.run(AssignTexture { texture, ..AssignTexture::default() }.into());
+            let base_color = Some([1.0, 1.0, 1.0, OPACITY]);
+            let look = SetMaterial {
+                base_color,
+                alpha: Some(SurfaceAlpha::Blend),
+                double_sided: Some(true),
+                ..SetMaterial::default()
+            };
+            self.run(look.into());
+            let view = if stage.orbit.is_orthographic() { stage.camera().orientation } else { DQuat::IDENTITY };
+            let xyzw = (view * UPRIGHT).to_array();
+            let rotation = Some(Rotation::Quaternion { xyzw });
+            self.run(SetTransform { rotation, ..SetTransform::default() }.into());
+            self.show_images();
+        }
+        self.show(stage);
     }
 
     /// A plane as wide as 2 m and as high as its image, at the 3D cursor, which no light changes.

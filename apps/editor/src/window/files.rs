@@ -108,6 +108,7 @@ impl Editor {
                 self.show_images();
                 self.show(stage);
             }
+            FileRequest::Reference(path) => self.add_reference(stage, &path),
             FileRequest::Export(path) => self.export(&with_extension(path)),
             FileRequest::SaveImage { kind, path } => self.save_image(stage, kind, path),
         }

@@ -174,8 +174,9 @@ impl Editor {
             return Taken::No;
         }
         let is_editing = self.document.selection().is_editing();
-        let chords = keys.into_iter().flatten().map(|key| Chord::new(hands.modifiers, key));
-        let found = chords.into_iter().find_map(|chord| self.keys.find(chord, is_editing));
+        let mut chords = keys.into_iter().flatten().map(|key| Chord::new(hands.modifiers, key));
+        let over_uvs = chords.clone().find_map(|chord| self.key_over_uvs(stage, chord));
+        let found = over_uvs.or_else(|| chords.find_map(|chord| self.keys.find(chord, is_editing)));
         let Some(action) = found else {
             if let Some(key @ Key::Character(_)) = keys[0] {
                 let chord = Chord::new(hands.modifiers, key);

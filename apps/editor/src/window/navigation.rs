@@ -249,4 +249,7 @@ fn camera_to_view(editor: &mut Editor, stage: &mut Stage) {
         scale: None,
     };
     editor.run(command.into());
+    if editor.view.camera.is_none() {
+        look_through_camera(editor, stage);
+    }
 }

@@ -2,8 +2,9 @@
 
 use trigon_document::SelectAction;
 use trigon_window::scene::math::DVec2;
-use trigon_window::{Hands, Pane, Stage};
+use trigon_window::{Chord, Hands, Key, Modifiers, Pane, Stage};
 
+use super::actions;
 use super::actions::Action;
 use super::editor::{Editor, Message};
 use super::panes::{in_pane, point, points};
@@ -12,7 +13,20 @@ use crate::tool::{Tool, UvPixels, UvTool, UvTransform};
 use crate::uv;
 use crate::uv::UvCanvas;
 
+/// Keys that mean something else over the UV view, as in Blender.
+const KEYS: [(Chord, &str); 3] = [
+    (Chord::new(Modifiers::NONE, Key::Character('p')), "uv.pin"),
+    (Chord::new(Modifiers::ALT, Key::Character('p')), "uv.unpin"),
+    (Chord::new(Modifiers::NONE, Key::Character('v')), "uv.stitch"),
+];
+
 impl Editor {
+    /// What a key does over the UV view alone.
+    pub(super) fn key_over_uvs(&self, stage: &Stage, chord: Chord) -> Option<&'static Action> {
+        let (_, name) = KEYS.iter().find(|(known, _)| *known == chord)?;
+        self.uv_canvas(stage).and_then(|_| actions::named(name))
+    }
+
     /// The UV view under the pointer.
     fn uv_canvas(&self, stage: &Stage) -> Option<(UvCanvas, DVec2)> {
         let at = point(stage, self.pointer?);

@@ -103,13 +103,17 @@ fn name(ui: &mut Ui, width: f32, document: &Document, id: NodeId, node: &Node) -
     let is_selected = selection.objects.contains(&id);
     let shown = if node.name.is_empty() { "(no name)" } else { node.name.as_str() };
     let mut text = RichText::new(shown);
-    if selection.active == Some(id) && is_selected {
+    let is_active = selection.active == Some(id) && is_selected;
+    if is_active {
         text = text.strong();
     }
     if !node.visible {
         text = text.weak();
     }
-    let button = egui::Button::selectable(is_selected, text).truncate().sense(Sense::click_and_drag());
+    let mut button = egui::Button::selectable(is_selected, text).truncate().sense(Sense::click_and_drag());
+    if is_active && selection.objects.len() > 1 {
+        button = button.stroke(egui::Stroke::new(1.5, ui.visuals().strong_text_color()));
+    }
     let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
     let size = vec2(width, ui.spacing().interact_size.y);
     let response =

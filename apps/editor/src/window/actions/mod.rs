@@ -141,8 +141,7 @@ const CONTEXT: [&str; 21] = [
 ];
 
 /// What menus at the pointer offer beside their own entries.
-const ALSO: [(&str, &[&str]); 4] = [
-    ("Mesh/Extrude", &["mesh.extrude"]),
+const ALSO: [(&str, &[&str]); 3] = [
     (
         "Mesh/Vertex",
         &[

@@ -126,6 +126,7 @@ actions! {
     "Add" "add.pyramid" "Pyramid" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"pyramid","edge":2.0,"height":2.0}}"#) => "Adds a pyramid.";
     "Add" "add.teapot" "Teapot" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"teapot","subdivisions":8}}"#) => "Adds Newell's teapot.";
     "Add" "add.empty" "Empty" "" ObjectMode Run(r#"{"op":"add_empty"}"#) => "Adds an empty object, as a parent for others.";
+    "Add" "add.reference" "Reference Image…" "" ObjectMode File(FileAction::Reference) => "Adds an image to model after, half transparent and facing the view.";
     "Add" "add.camera" "Camera" "" ObjectMode Run(r#"{"op":"add_camera","position":[6.0,4.5,6.0],"rotation":{"by":"euler","angles":[-28.0,45.0,0.0]}}"#) => "Adds a camera that looks at the 3D cursor.";
     "Add/Solids" "add.tetrahedron" "Tetrahedron" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"tetrahedron","edge":2.0}}"#) => "Adds a solid of 4 triangles.";
     "Add/Solids" "add.octahedron" "Octahedron" "" Nothing Run(r#"{"op":"add_object","object":{"shape":"octahedron","edge":2.0}}"#) => "Adds a solid of 8 triangles.";
@@ -170,7 +171,7 @@ actions! {
     "Select/Similar" "similar.length" "Length" "" Elements Run(r#"{"op":"select_similar","by":"length"}"#) => "Edges of about the same length.";
     "Select/Similar" "similar.faces" "Faces at Edges" "" Elements Run(r#"{"op":"select_similar","by":"faces"}"#) => "Edges with the same number of faces.";
     "Select/Similar" "similar.edges" "Edges at Vertices" "" Elements Run(r#"{"op":"select_similar","by":"edges"}"#) => "Vertices with the same number of edges.";
-    "Mesh" "mesh.extrude" "Extrude" "E" Elements Tool(ToolKind::Extrude) => "Extrudes the selection.";
+    "Mesh/Extrude" "mesh.extrude" "Extrude" "E" Elements Tool(ToolKind::Extrude) => "Extrudes the selection.";
     "Mesh/Extrude" "extrude.menu" "Extrude Menu" "Alt+E" Elements Ui(UiRequest::Popup("Mesh/Extrude")) => "Chooses how the selection is extruded.";
     "Mesh/Extrude" "extrude.along_normals" "Extrude Along Normals" "" Elements Ui(UiRequest::ExtrudeAlongNormals) => "Extrudes faces, each vertex along its own normal.";
     "Mesh/Extrude" "mesh.extrude_individual" "Extrude Individual Faces" "" Elements Tool(ToolKind::ExtrudeIndividual) => "Extrudes each face individually.";

@@ -39,6 +39,8 @@ pub(crate) enum Purpose {
     Export,
     /// An image for a material.
     Texture(MaterialName, TextureSlot),
+    /// An image to model after.
+    Reference,
     /// An image that was made of the scene.
     Image(ImageKind),
 }
@@ -51,6 +53,7 @@ impl Purpose {
             FileAction::SaveAs => Some(Self::SaveAs),
             FileAction::Import => Some(Self::Import),
             FileAction::Export => Some(Self::Export),
+            FileAction::Reference => Some(Self::Reference),
             FileAction::New | FileAction::Save | FileAction::Quit => None,
         }
     }
@@ -62,6 +65,7 @@ impl Purpose {
             Self::Import => FileRequest::Import(path),
             Self::Export => FileRequest::Export(path),
             Self::Texture(material, slot) => FileRequest::Texture { material, slot, path },
+            Self::Reference => FileRequest::Reference(path),
             Self::Image(kind) => FileRequest::SaveImage { kind, path },
         }
     }
@@ -72,7 +76,7 @@ impl Purpose {
             Self::SaveAs => "Save As",
             Self::Import => "Import",
             Self::Export => "Export",
-            Self::Texture(..) => "Open Image",
+            Self::Texture(..) | Self::Reference => "Open Image",
             Self::Image(ImageKind::Screenshot) => "Save Screenshot",
             Self::Image(ImageKind::Render) => "Save Image",
             Self::Image(ImageKind::UvLayout) => "Save UV Layout",
@@ -91,7 +95,7 @@ impl Purpose {
                 .iter()
                 .fold(dialog, |dialog, (name, endings)| dialog.add_filter(*name, endings))
                 .save_file(),
-            Self::Open | Self::Import | Self::Texture(..) => dialog.pick_file(),
+            Self::Open | Self::Import | Self::Texture(..) | Self::Reference => dialog.pick_file(),
         }
     }
 
@@ -101,7 +105,7 @@ impl Purpose {
             Self::Open | Self::Import => readers().flat_map(|reader| reader.extensions).copied().collect(),
             Self::SaveAs => vec!["glb"],
             Self::Export => trigon_io::writers().flat_map(|writer| writer.extensions).copied().collect(),
-            Self::Texture(..) => IMAGES.to_vec(),
+            Self::Texture(..) | Self::Reference => IMAGES.to_vec(),
             Self::Image(_) => IMAGE_FORMATS.iter().flat_map(|(_, endings)| *endings).copied().collect(),
         }
     }
@@ -324,7 +328,7 @@ impl FileWindow {
             Purpose::Open | Purpose::Import => self.exchange.show_import(ui),
             Purpose::Export => self.exchange.show_export(ui, &mut self.path),
             Purpose::Image(_) => images::show_formats(ui, &mut self.path),
-            Purpose::SaveAs | Purpose::Texture(..) => {}
+            Purpose::SaveAs | Purpose::Texture(..) | Purpose::Reference => {}
         }
         if !self.note.is_empty() {
             ui.label(self.note);

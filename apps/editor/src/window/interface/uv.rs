@@ -56,7 +56,7 @@ fn settings(ui: &mut Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
         );
         let overlaps = ui.toggle_value(&mut view.colors.overlaps, "Overlaps");
         overlaps.on_hover_text("Marks faces that lie on others");
-        for name in ["uv.unwrap", "uv.smart", "uv.pack", "uv.follow"] {
+        for name in ["uv.unwrap", "uv.smart", "uv.pack", "uv.follow", "uv.pin", "uv.stitch"] {
             let Some(action) = crate::window::actions::named(name) else { continue };
             let refusal = action.refusal(&editor.document);
             let button = ui.add_enabled(refusal.is_none(), egui::Button::new(action.label));

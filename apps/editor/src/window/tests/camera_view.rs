@@ -9,7 +9,7 @@ use super::sessions::{User, at_the_editor};
 fn the_view_through_the_camera_follows_it() {
     let folder = tempfile::tempdir().expect("a folder");
     at_the_editor(folder.path(), &[], Viewport { width: 1000, height: 700 }, |user| {
-        user.play("keys Shift+A\npress Camera\nkeys Ctrl+Alt+Numpad0 Numpad0");
+        user.play("keys Shift+A\npress Camera\nkeys Ctrl+Alt+Numpad0");
         let camera = |user: &User<'_>| {
             let editor = user.editor.borrow();
             let (_, camera) = crate::window::navigation::camera(&editor.document).expect("it was added");

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde_json::json;
+use trigon_document::scene::AlphaMode;
 use trigon_document::scene::math::DVec3;
 
 use super::*;
@@ -484,4 +485,24 @@ fn what_was_hidden_is_selected_when_it_is_shown_again() {
     }
     worked.chord("Alt+H");
     assert_eq!(worked.selected_elements(), 6, "all faces");
+}
+
+/// In a view of a side the image lies in its plane; with alpha, so that what is modelled shows through.
+#[test]
+fn a_reference_image_faces_the_view_and_is_half_transparent() {
+    let image = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images/showcase.png");
+    for (view, towards) in [("Numpad1", DVec3::Z), ("Numpad3", DVec3::X), ("Numpad7", DVec3::Y), ("Home", DVec3::Z)] {
+        let mut worked = Worked::new();
+        worked.chord(view);
+        let Worked { editor, stage } = &mut worked;
+        editor.file_request(stage, FileRequest::Reference(image.clone()));
+        let document = &worked.editor.document;
+        let object = document.selection().active.expect("it is selected");
+        let node = document.nodes().node(object).expect("it exists");
+        let turned = node.transform.to_affine().transform_vector3(DVec3::Y);
+        assert!(turned.abs_diff_eq(towards, 1e-9), "{view}: {turned}");
+        let material = document.nodes().materials.get(node.materials[0]).expect("it has one");
+        assert_eq!((material.base_color.w, material.alpha_mode), (0.5, AlphaMode::Blend), "{view}");
+        assert!(material.base_color_texture.is_some() && material.double_sided);
+    }
 }

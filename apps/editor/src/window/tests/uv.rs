@@ -155,6 +155,31 @@ fn islands_are_picked_and_moved_in_the_uv_view_by_the_keys_of_the_3d_view() {
     });
 }
 
+/// `P` separates parts over the 3D view, and pins coordinates over the UV view.
+#[test]
+fn keys_over_the_uv_view_pin_and_stitch() {
+    let folder = tempfile::tempdir().expect("a folder");
+    at_the_editor(folder.path(), &[], Viewport { width: 1200, height: 700 }, |user| {
+        user.play("keys Tab 3 A U S Shift+F10");
+        let before = middles(user);
+        let at = seen(user, before[2]);
+        user.window.move_to(at);
+        user.window.press(PointerButton::Left);
+        user.window.release(PointerButton::Left);
+        let pinned = |user: &User<'_>| {
+            let editor = user.editor.borrow();
+            let (id, _) = editor.document.selection().meshes().next().expect("the cube is edited");
+            let mesh = editor.document.mesh(id).expect("it is");
+            mesh.corners().filter(|&corner| mesh.is_uv_pinned(0, corner)).count()
+        };
+        user.play("keys P\nsee changed 4 corners");
+        assert_eq!(pinned(user), 4, "those of the face");
+        user.play("keys Alt+P");
+        assert_eq!(pinned(user), 0, "free again");
+        user.play("keys V\nmesh Cube 8 12 6\nsee Stitch");
+    });
+}
+
 #[test]
 fn the_uv_view_leaves_the_scene_its_own_part_of_the_window() {
     let folder = tempfile::tempdir().expect("a folder");

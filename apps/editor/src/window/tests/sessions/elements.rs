@@ -99,7 +99,6 @@ fn clicks_measure_lengths_and_angles_and_change_nothing() {
         keys Backspace
         see 2.8284 m. Click         # across the face: the square root of 8
         keys Escape
-        mesh Cube 8 12 6
         title untitled - trigon
         keys Tab
         press Measure
