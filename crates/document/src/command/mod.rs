@@ -93,9 +93,10 @@ pub use transform::{
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
-    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
-    DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter, QuadLength, ScrewModifier,
-    SolidifySettings, SubdivisionModifier, TriangulateModifier, UnwrapMethod, WeldModifier,
+    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, BridgePath,
+    BridgeProfile, DecimateGoal, DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter,
+    QuadLength, ScrewModifier, SolidifySettings, SubdivisionModifier, TriangulateModifier,
+    UnwrapMethod, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use trigon_modelling::BridgeSettings as Bridge;
 use trigon_modelling::{GridSides, QuadLimits};
 
 use super::action::{remake, whole_meshes};
@@ -110,20 +111,14 @@ impl Action for Fill {
     }
 }
 
-/// Joins two selected loops or chains of edges with a band of faces. Selected faces are removed and their
-/// outlines joined, so two faces become a handle or a hole.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Bridge {}
-
 impl Action for Bridge {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
         change.edit_selected("bridging", "two loops of edges", |mesh, selection| {
             let (faces, edges) = (selection.faces(mesh, kind), selection.edges(mesh, kind));
             let made = match &faces[..] {
-                [] => mesh.bridge_edges(&edges)?,
-                faces => mesh.bridge_faces(faces, &edges)?,
+                [] => mesh.bridge_edges(&edges, self)?,
+                faces => mesh.bridge_faces(faces, &edges, self)?,
             };
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
@@ -168,5 +163,28 @@ impl Action for GridFill {
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
         Ok(Outcome::counted("made", count, ["face", "faces"]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+    use trigon_mesh::primitives;
+
+    use crate::tests::commands::{edited, editing_faces, run, try_run};
+
+    #[test]
+    fn a_hole_is_bridged_through_a_cube_with_cuts_and_undone() {
+        let mut document = editing_faces(primitives::cube(2.0));
+        run(&mut document, json!({ "op": "inset", "mode": "individual", "thickness": 0.5 }));
+        run(&mut document, json!({ "op": "select_within", "min": [-0.6, -2, -0.6], "max": [0.6, 2, 0.6] }));
+        let before = edited(&document).face_count();
+        run(&mut document, json!({ "op": "bridge", "cuts": 3, "interpolation": "path" }));
+        assert_eq!(edited(&document).face_count(), before - 2 + 16);
+        assert!(edited(&document).is_watertight());
+        document.undo().expect("one");
+        assert_eq!(edited(&document).face_count(), before);
+        let refused = try_run(&mut document, json!({ "op": "bridge", "cuts": 2000 })).expect_err("too many");
+        assert!(refused.to_string().contains("cuts"), "{refused}");
     }
 }

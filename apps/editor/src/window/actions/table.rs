@@ -194,7 +194,7 @@ actions! {
     "Mesh" "mesh.fill" "Make Face / Fill" "F Alt+F" Elements Run(r#"{"op":"fill"}"#) => "Fills loops with faces.";
     "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";
     "Mesh" "mesh.connect" "Connect Vertices" "J" Elements Run(r#"{"op":"connect_vertices"}"#) => "Connects vertices with edges through faces.";
-    "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two edge loops, or the outlines of two faces, with faces.";
+    "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two edge loops, or the outlines of two faces, with faces; adjust cuts and profile with F9.";
     "Mesh" "mesh.solidify" "Solidify Faces" "" Elements Run(r#"{"op":"solidify"}"#) => "Gives faces a second layer behind them; adjust the thickness with F9.";
     "Mesh" "mesh.wireframe" "Wireframe" "" Elements Run(r#"{"op":"wireframe"}"#) => "Makes struts of the edges of faces; adjust the thickness with F9.";
     "Mesh" "mesh.spin" "Spin" "" Elements Run(r#"{"op":"spin"}"#) => "Sweeps edges and vertices around an upright axis; adjust it with F9.";
