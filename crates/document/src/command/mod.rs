@@ -86,7 +86,9 @@ pub use set_transform::{ClearTransform, SetTransform};
 pub use solid::{Decimate, Solidify, UnSubdivide, Wireframe};
 pub use space::TransformSpace;
 pub use spin::{Bisect, Spin};
-pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads};
+pub use surface::{
+    Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads, VoxelRemesh,
+};
 pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
@@ -236,6 +238,8 @@ commands! {
     Boolean("Boolean", false),
     /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
+    /// Replaces the faces of closed meshes with quads of equal size.
+    VoxelRemesh("Voxel Remesh", false),
     /// Shows meshes as subdivision surfaces while their cage is edited.
     SetSubdivision("Subdivision Surface", false),
     /// Replaces meshes with their subdivision surfaces.

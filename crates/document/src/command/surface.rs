@@ -1,8 +1,8 @@
-//! Other faces for the same surface: Catmull-Clark, triangles, quads; filling holes and loops.
+//! Other faces for the same surface: Catmull-Clark, voxels, triangles, quads; filling holes and loops.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-pub use trigon_modelling::BridgeSettings as Bridge;
+pub use trigon_modelling::{BridgeSettings as Bridge, VoxelRemeshSettings as VoxelRemesh};
 use trigon_modelling::{GridSides, QuadLimits};
 
 use super::action::{remake, whole_meshes};
@@ -33,6 +33,16 @@ impl Action for CatmullClark {
         let mut faces = 0;
         for id in whole_meshes(change, "subdividing")? {
             faces += remake(change, id, |mesh| Ok(mesh.catmull_clark(self.levels).map(drop)?))?;
+        }
+        Ok(Outcome::counted("made", faces, ["face", "faces"]))
+    }
+}
+
+impl Action for VoxelRemesh {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut faces = 0;
+        for id in whole_meshes(change, "remeshing by voxels")? {
+            faces += remake(change, id, |mesh| Ok(mesh.voxel_remesh(self).map(drop)?))?;
         }
         Ok(Outcome::counted("made", faces, ["face", "faces"]))
     }
@@ -186,5 +196,20 @@ mod tests {
         assert_eq!(edited(&document).face_count(), before);
         let refused = try_run(&mut document, json!({ "op": "bridge", "cuts": 2000 })).expect_err("too many");
         assert!(refused.to_string().contains("cuts"), "{refused}");
+    }
+
+    #[test]
+    fn a_sphere_becomes_quads_and_is_undone() {
+        let mut document = editing_faces(primitives::icosphere(1.0, 2));
+        let outcome =
+            try_run(&mut document, json!({ "op": "voxel_remesh", "voxel_size": 0.25 })).expect("closed");
+        let mesh = edited(&document);
+        assert!(mesh.is_watertight() && mesh.faces().all(|face| mesh.face_size(face) == 4));
+        assert_eq!(outcome.message, format!("made {} faces", mesh.face_count()));
+        document.undo().expect("one");
+        assert_eq!(edited(&document).face_count(), 320);
+        let mut open = editing_faces(primitives::grid(1.0, 1.0, 2, 2));
+        let refused = try_run(&mut open, json!({ "op": "voxel_remesh" })).expect_err("open").to_string();
+        assert!(refused.contains("hole"), "{refused}");
     }
 }

@@ -48,6 +48,7 @@ mod solidify;
 mod spin;
 mod split;
 mod subdivide;
+mod surface_tree;
 mod sweep_frame;
 mod symmetrize;
 #[cfg(test)]
@@ -60,6 +61,7 @@ mod tris_to_quads;
 mod un_subdivide;
 mod unwrap;
 mod uv_overlaps;
+mod voxel_remesh;
 mod wireframe;
 
 pub use bevel::{BevelLeftOut, BevelSettings, BevelWidth, Beveled, InnerMiter, OuterMiter};
@@ -96,4 +98,5 @@ pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
 pub use un_subdivide::UnSubdivided;
 pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};
+pub use voxel_remesh::VoxelRemeshSettings;
 pub use wireframe::WireframeSettings;

@@ -2,7 +2,7 @@
 //! non-manifold or open.
 
 use proptest::prelude::*;
-use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane};
+use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3, Plane};
 
 use super::*;
 use crate::modifier::{DecimateSettings, SolidifySettings};
@@ -15,7 +15,7 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
 }
 
 /// How many kinds there are.
-const KINDS: u8 = 35;
+const KINDS: u8 = 36;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -104,6 +104,13 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
         }
         33 => mesh.un_subdivide(&faces).map(drop),
+        34 => {
+            // Three to eight voxels across, whatever other steps made of the mesh.
+            let points = mesh.vertices().map(|vertex| mesh.point(vertex));
+            let size = Bounds3::from_points(points).size().max_element();
+            let settings = VoxelRemeshSettings { voxel_size: size * (0.22 + 0.1 * a), project: b > 0.0 };
+            mesh.voxel_remesh(&settings).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }

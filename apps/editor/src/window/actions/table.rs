@@ -182,6 +182,7 @@ actions! {
     "Mesh" "mesh.edge_slide" "Slide" "Shift+V" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours, or vertices along their edges (G G).";
     "Mesh" "mesh.subdivide" "Subdivide" "" Elements Run(r#"{"op":"subdivide"}"#) => "Cuts the selected edges in half.";
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes into smooth surfaces.";
+    "Mesh" "mesh.voxel_remesh" "Voxel Remesh" "" EditMode Run(r#"{"op":"voxel_remesh"}"#) => "Replaces the faces of closed meshes with quads of equal size; adjust it with F9.";
     "Mesh" "mesh.un_subdivide" "Un-Subdivide" "" Elements Run(r#"{"op":"un_subdivide"}"#) => "Reverses one subdivision of the selected quads.";
     "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Duplicates the selection, and moves the copy.";
     "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";

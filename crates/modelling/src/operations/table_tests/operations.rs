@@ -11,7 +11,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-pub(super) const OPERATIONS: [Operation; 50] = [
+pub(super) const OPERATIONS: [Operation; 51] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -79,6 +79,10 @@ pub(super) const OPERATIONS: [Operation; 50] = [
     }),
     operation("wireframe", Promise::Nothing, |mesh, on| {
         mesh.wireframe_faces(&on.faces, &WireframeSettings::default()).map(drop)
+    }),
+    operation("remesh by voxels", Promise::Closed, |mesh, on| {
+        let voxel_size = 0.3 + 0.01 * on.number as f64;
+        mesh.voxel_remesh(&VoxelRemeshSettings { voxel_size, project: on.number % 2 == 0 }).map(drop)
     }),
     operation("poke", Promise::Euler, |mesh, on| mesh.poke_faces(&on.faces, 0.0).map(drop)),
     operation("convex hull", Promise::Nothing, |mesh, on| {
