@@ -36,6 +36,7 @@ mod space;
 mod spin;
 mod surface;
 mod texture;
+mod transfer_uvs;
 mod transform;
 mod translate;
 mod unwrap;
@@ -90,6 +91,7 @@ pub use surface::{
     Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads, VoxelRemesh,
 };
 pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
+pub use transfer_uvs::TransferUvs;
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
@@ -97,7 +99,7 @@ pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
     ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, BridgePath,
     BridgeProfile, DecimateGoal, DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter,
-    QuadLength, ScrewModifier, SolidifySettings, SubdivisionModifier, TriangulateModifier,
+    QuadLength, ScrewModifier, SolidifySettings, SubdivisionModifier, TransferMapping, TriangulateModifier,
     UnwrapMethod, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
@@ -328,6 +330,8 @@ commands! {
     Unwrap("Unwrap", false),
     /// Projects faces that face similarly together.
     SmartProject("Smart Projection", false),
+    /// Gives meshes the texture coordinates of another object.
+    TransferUvs("Transfer UVs", false),
     /// Arranges islands of texture coordinates in the image.
     PackIslands("Pack Islands", false),
     /// Moves texture coordinates.

@@ -54,6 +54,7 @@ mod symmetrize;
 #[cfg(test)]
 mod table_tests;
 mod tables;
+mod transfer_values;
 mod transform;
 mod transform_uvs;
 mod triangulate;
@@ -92,6 +93,7 @@ pub use solidify::Solidified;
 pub use spin::{SpinSettings, Spun};
 pub use subdivide::Subdivided;
 pub use symmetrize::Symmetrized;
+pub use transfer_values::{TransferMapping, TransferSettings, TransferSource};
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
 pub use transform_uvs::UvElements;
 pub use triangulate::Triangulated;

@@ -15,7 +15,7 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
 }
 
 /// How many kinds there are.
-const KINDS: u8 = 36;
+const KINDS: u8 = 37;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -110,6 +110,12 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             let size = Bounds3::from_points(points).size().max_element();
             let settings = VoxelRemeshSettings { voxel_size: size * (0.22 + 0.1 * a), project: b > 0.0 };
             mesh.voxel_remesh(&settings).map(drop)
+        }
+        35 => {
+            let copy = mesh.clone();
+            let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_y(b), center);
+            let settings = TransferSettings { colors: a > 0.0, ..TransferSettings::default() };
+            mesh.transfer_values(&faces, &TransferSource { mesh: &copy, transform }, &settings)
         }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }

@@ -185,6 +185,15 @@ impl SurfaceTree {
         best
     }
 
+    /// The nearest point of the same face as another point's.
+    pub(super) fn nearest_of_face(&self, like: &SurfacePoint, point: DVec3) -> SurfacePoint {
+        let mut best = None;
+        for triangle in self.ranges[like.face_index as usize].clone() {
+            self.improve(&mut best, triangle, point);
+        }
+        best.unwrap_or(*like)
+    }
+
     fn improve(&self, best: &mut Option<SurfacePoint>, triangle: u32, point: DVec3) {
         let SurfaceTriangle { corners, points, face } = self.triangles[triangle as usize];
         let weights = nearest_weights(points, point);

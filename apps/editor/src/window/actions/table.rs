@@ -58,6 +58,7 @@ actions! {
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
+    "Edit" "edit.transfer_uvs" "Transfer UVs from Active" "" TwoObjects Run(r#"{"op":"transfer_uvs"}"#) => "Gives the other selected objects the texture coordinates of the active one.";
     "Edit/Boolean" "boolean.union" "Union" "" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
     "Edit/Boolean" "boolean.difference" "Difference" "" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
     "Edit/Boolean" "boolean.intersection" "Intersection" "" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";

@@ -5,13 +5,14 @@ use trigon_math::{DAffine3, DVec3, Plane};
 use super::{Chosen, Operation, Promise, operation};
 use crate::modifier::{DecimateSettings, SolidifySettings};
 use crate::operations::*;
+use crate::tests::with_affine_values;
 use crate::{BooleanOperation, EdgeId, EditMesh, FaceId, Refusal};
 
 fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-pub(super) const OPERATIONS: [Operation; 51] = [
+pub(super) const OPERATIONS: [Operation; 52] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -83,6 +84,11 @@ pub(super) const OPERATIONS: [Operation; 51] = [
     operation("remesh by voxels", Promise::Closed, |mesh, on| {
         let voxel_size = 0.3 + 0.01 * on.number as f64;
         mesh.voxel_remesh(&VoxelRemeshSettings { voxel_size, project: on.number % 2 == 0 }).map(drop)
+    }),
+    operation("transfer from a coarser mesh", Promise::Shape, |mesh, on| {
+        let (source, _) = EditMesh::from_mesh(&with_affine_values(trigon_mesh::primitives::cube(2.0)));
+        let source = TransferSource { mesh: &source, transform: DAffine3::IDENTITY };
+        mesh.transfer_values(&on.faces, &source, &TransferSettings::default())
     }),
     operation("poke", Promise::Euler, |mesh, on| mesh.poke_faces(&on.faces, 0.0).map(drop)),
     operation("convex hull", Promise::Nothing, |mesh, on| {
