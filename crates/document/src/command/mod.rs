@@ -84,7 +84,7 @@ pub use separate::{Separate, SeparateBy};
 pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
 pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
-pub use solid::{Decimate, Solidify, UnSubdivide, Wireframe};
+pub use solid::{Decimate, Solidify, Tube, UnSubdivide, Wireframe};
 pub use space::TransformSpace;
 pub use spin::{Bisect, Spin};
 pub use surface::{
@@ -224,6 +224,8 @@ commands! {
     Solidify("Solidify", false),
     /// Makes struts of edges.
     Wireframe("Wireframe", false),
+    /// Makes tubes around chains of edges.
+    Tube("Tube", false),
     /// Sweeps elements around an axis.
     Spin("Spin", false),
     /// Duplicates the selection within its mesh.

@@ -59,6 +59,7 @@ mod transform;
 mod transform_uvs;
 mod triangulate;
 mod tris_to_quads;
+mod tube;
 mod un_subdivide;
 mod unwrap;
 mod uv_overlaps;
@@ -98,6 +99,7 @@ pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transfo
 pub use transform_uvs::UvElements;
 pub use triangulate::Triangulated;
 pub use tris_to_quads::QuadLimits;
+pub use tube::TubeSettings;
 pub use un_subdivide::UnSubdivided;
 pub use unwrap::{PackSettings, SmartProjection, UnwrapMethod, UnwrapSettings, Unwrapped};
 pub use voxel_remesh::VoxelRemeshSettings;

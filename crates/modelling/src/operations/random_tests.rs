@@ -15,7 +15,7 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
 }
 
 /// How many kinds there are.
-const KINDS: u8 = 37;
+const KINDS: u8 = 38;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -112,6 +112,10 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             mesh.voxel_remesh(&settings).map(drop)
         }
         35 => {
+            let settings = TubeSettings { radius: 0.1, sides: 3, caps: a > 0.0, replace: b > 0.0 };
+            mesh.tube_edges(&edges, &settings).map(drop)
+        }
+        36 => {
             let copy = mesh.clone();
             let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_y(b), center);
             let settings = TransferSettings { colors: a > 0.0, ..TransferSettings::default() };

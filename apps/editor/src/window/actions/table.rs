@@ -199,6 +199,7 @@ actions! {
     "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two edge loops, or the outlines of two faces, with faces; adjust cuts and profile with F9.";
     "Mesh" "mesh.solidify" "Solidify Faces" "" Elements Run(r#"{"op":"solidify"}"#) => "Gives faces a second layer behind them; adjust the thickness with F9.";
     "Mesh" "mesh.wireframe" "Wireframe" "" Elements Run(r#"{"op":"wireframe"}"#) => "Makes struts of the edges of faces; adjust the thickness with F9.";
+    "Mesh" "mesh.tube" "Tube" "" Elements Run(r#"{"op":"tube"}"#) => "Makes tubes around chains of edges; adjust radius and sides with F9.";
     "Mesh" "mesh.spin" "Spin" "" Elements Run(r#"{"op":"spin"}"#) => "Sweeps edges and vertices around an upright axis; adjust it with F9.";
     "Mesh" "mesh.bisect" "Bisect" "" Elements Run(r#"{"op":"bisect"}"#) => "Cuts faces along the plane x = 0; adjust it with F9.";
     "Mesh" "mesh.decimate" "Decimate" "" Elements Run(r#"{"op":"decimate"}"#) => "Reduces the triangles of faces to half; adjust it with F9.";

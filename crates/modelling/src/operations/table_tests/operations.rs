@@ -12,7 +12,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-pub(super) const OPERATIONS: [Operation; 52] = [
+pub(super) const OPERATIONS: [Operation; 53] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -84,6 +84,9 @@ pub(super) const OPERATIONS: [Operation; 52] = [
     operation("remesh by voxels", Promise::Closed, |mesh, on| {
         let voxel_size = 0.3 + 0.01 * on.number as f64;
         mesh.voxel_remesh(&VoxelRemeshSettings { voxel_size, project: on.number % 2 == 0 }).map(drop)
+    }),
+    operation("tube", Promise::Nothing, |mesh, on| {
+        mesh.tube_edges(&on.edges, &TubeSettings { sides: 3, ..TubeSettings::default() }).map(drop)
     }),
     operation("transfer from a coarser mesh", Promise::Shape, |mesh, on| {
         let (source, _) = EditMesh::from_mesh(&with_affine_values(trigon_mesh::primitives::cube(2.0)));
