@@ -48,7 +48,7 @@ pub(crate) use action::Action;
 pub use action::{ObjectName, Outcome};
 pub use apply_transform::ApplyTransform;
 pub use boolean::Boolean;
-pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide, edge_towards};
+pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
 pub use extrude::{Bevel, Extrude, Inset, InsetMode};
@@ -62,7 +62,7 @@ pub use modifier::{
     ShowModifier,
 };
 pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs, selected_uv_corners};
-pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
+pub use parts::{Duplicate, ExtendVertices, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use poke::{ConvexHull, Poke};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
@@ -234,6 +234,8 @@ commands! {
     SplitOff("Split", false),
     /// Opens meshes along the selected edges or at selected vertices.
     Rip("Rip", false),
+    /// Gives vertices new ones on their edges.
+    ExtendVertices("Extend Vertices", false),
     /// Makes parts of meshes separate objects.
     Separate("Separate", false),
     /// Joins several objects into one.

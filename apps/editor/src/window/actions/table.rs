@@ -189,6 +189,7 @@ actions! {
     "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
     "Mesh" "mesh.rip" "Rip" "V" Elements Ui(UiRequest::Rip { fill: false }) => "Opens the mesh along edges or at vertices, and moves the pointer's side.";
     "Mesh" "mesh.rip_fill" "Rip Fill" "Alt+V" Elements Ui(UiRequest::Rip { fill: true }) => "Rips, and fills the gap with faces.";
+    "Mesh" "mesh.extend_vertices" "Extend Vertices" "" Elements Run(r#"{"op":"extend_vertices"}"#) => "Gives vertices new ones on their edges; adjust the direction with F9.";
     "Mesh/Separate" "separate.menu" "Separate Menu" "P" EditMode Ui(UiRequest::Popup("Mesh/Separate")) => "Chooses which parts become objects of their own.";
     "Mesh/Separate" "mesh.separate" "Selection" "" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces a separate object.";
     "Mesh/Separate" "separate.material" "By Material" "" Meshes Run(r#"{"op":"separate","by":"material"}"#) => "Makes the faces of each material a separate object.";

@@ -12,7 +12,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-pub(super) const OPERATIONS: [Operation; 53] = [
+pub(super) const OPERATIONS: [Operation; 54] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -149,6 +149,9 @@ pub(super) const OPERATIONS: [Operation; 53] = [
     }),
     operation("rip", Promise::Nothing, |mesh, on| {
         mesh.rip(&on.edges, &on.vertices, DVec3::X, on.number % 2 == 0).map(drop)
+    }),
+    operation("extend vertices", Promise::Euler, |mesh, on| {
+        mesh.extend_vertices(&on.vertices, DVec3::new(1.0, 0.5, 0.25)).map(drop)
     }),
     operation("mirror a copy", Promise::Nothing, |mesh, on| {
         mesh.mirror_copy(&on.faces, &[], &plane(), Some(0.2)).map(drop)
