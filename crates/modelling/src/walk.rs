@@ -1,5 +1,7 @@
 //! Navigation from an element to its neighbours.
 
+use trigon_math::{DVec3, unit_or_zero};
+
 use super::edit_mesh::EditMesh;
 use super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 
@@ -100,6 +102,20 @@ impl EditMesh {
         let mut corners = self.edge_corners(edge);
         let pair = [corners.next()?, corners.next()?];
         corners.next().is_none().then_some(pair)
+    }
+
+    /// The edge at a vertex that is closest to a direction, as a vertex slides along it; the first one if there are several.
+    /// Edges without length are the last.
+    #[must_use]
+    pub fn edge_towards(&self, vertex: VertexId, direction: DVec3) -> Option<EdgeId> {
+        let here = self.point(vertex);
+        let alike = |edge: EdgeId| match unit_or_zero(self.point(self.other_vertex(edge, vertex)) - here) {
+            DVec3::ZERO => f64::NEG_INFINITY,
+            way => way.dot(direction),
+        };
+        let edges = self.vertex_edges(vertex).map(|edge| (alike(edge), edge));
+        let best = edges.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        best.map(|(_, edge)| edge)
     }
 
     /// The edge that joins two vertices, in time proportional to the number of edges of that

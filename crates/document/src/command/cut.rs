@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{DAffine3, DVec3, Vec3};
-use trigon_modelling::{EdgeId, EditMesh, FaceId, KnifePoint, LoopCutSettings, VertexId};
+use trigon_modelling::{EdgeId, FaceId, KnifePoint, LoopCutSettings, VertexId};
 
 use super::space::TransformSpace;
 use super::{Action, ObjectName, Outcome};
@@ -160,26 +160,13 @@ impl Action for SlideVertices {
             let slides: Vec<_> = selection
                 .vertices(mesh, kind)
                 .into_iter()
-                .filter_map(|vertex| Some((vertex, edge_towards(mesh, vertex, direction)?)))
+                .filter_map(|vertex| Some((vertex, mesh.edge_towards(vertex, direction)?)))
                 .collect();
             mesh.slide_vertices(&slides, self.factor)?;
             Ok(AfterEdit::Keep)
         })?;
         Ok(Outcome::silent())
     }
-}
-
-/// The edge of a vertex that is closest to a direction; the first one if there are several.
-#[must_use]
-pub fn edge_towards(mesh: &EditMesh, vertex: VertexId, direction: DVec3) -> Option<EdgeId> {
-    let position = mesh.position(vertex).as_dvec3();
-    let alike = |edge: EdgeId| {
-        let way = mesh.position(mesh.other_vertex(edge, vertex)).as_dvec3() - position;
-        way.normalize_or_zero().dot(direction)
-    };
-    let edges = mesh.vertex_edges(vertex).map(|edge| (alike(edge), edge));
-    let best = edges.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    best.map(|(_, edge)| edge)
 }
 
 /// Cuts faces along strokes, and selects the edges of the cut. Consecutive points of a stroke belong to the same face.

@@ -37,6 +37,7 @@ mod space;
 mod spin;
 mod surface;
 mod texture;
+mod transfer_uvs;
 mod transform;
 mod translate;
 mod unwrap;
@@ -48,7 +49,7 @@ pub(crate) use action::Action;
 pub use action::{ObjectName, Outcome};
 pub use apply_transform::ApplyTransform;
 pub use boolean::Boolean;
-pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide, edge_towards};
+pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
 pub use edit_uvs::{AlignUvs, AverageIslandScale, PinUvs, StitchUvs, StraightenUvs};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
@@ -63,7 +64,7 @@ pub use modifier::{
     ShowModifier,
 };
 pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs, selected_uv_corners};
-pub use parts::{Duplicate, JoinObjects, Rip, SplitOff};
+pub use parts::{Duplicate, ExtendVertices, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use poke::{ConvexHull, Poke};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
@@ -85,19 +86,23 @@ pub use separate::{Separate, SeparateBy};
 pub use set_origin::{GeometryCenter, OriginTarget, SetOrigin};
 pub(crate) use set_transform::transform_of;
 pub use set_transform::{ClearTransform, SetTransform};
-pub use solid::{Decimate, Solidify, UnSubdivide, Wireframe};
+pub use solid::{Decimate, Solidify, Tube, UnSubdivide, Wireframe};
 pub use space::TransformSpace;
 pub use spin::{Bisect, Spin};
-pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads};
+pub use surface::{
+    Bridge, CatmullClark, ConnectVertices, Fill, GridFill, Triangulate, TrisToQuads, VoxelRemesh,
+};
 pub use texture::{AssignTexture, ProjectUvs, ProjectUvsOnBox, TextureSlot, TextureSource};
+pub use transfer_uvs::TransferUvs;
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use translate::{Rotate, Rotation, Scale, Translate};
 pub use trigon_modelling::{
-    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
-    DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter, QuadLength, ScrewModifier,
-    SolidifySettings, SubdivisionModifier, TriangulateModifier, UnwrapMethod, UvAlignment, WeldModifier,
+    ArrayModifier, BevelModifier, BevelWidth, BeveledEdges, BooleanModifier, BooleanOperation, BridgePath,
+    BridgeProfile, DecimateGoal, DecimateSettings, InnerMiter, MirrorModifier, Modifier, OuterMiter,
+    QuadLength, ScrewModifier, SolidifySettings, SubdivisionModifier, TransferMapping, TriangulateModifier,
+    UnwrapMethod, UvAlignment, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
 
@@ -221,6 +226,8 @@ commands! {
     Solidify("Solidify", false),
     /// Makes struts of edges.
     Wireframe("Wireframe", false),
+    /// Makes tubes around chains of edges.
+    Tube("Tube", false),
     /// Sweeps elements around an axis.
     Spin("Spin", false),
     /// Duplicates the selection within its mesh.
@@ -229,6 +236,8 @@ commands! {
     SplitOff("Split", false),
     /// Opens meshes along the selected edges or at selected vertices.
     Rip("Rip", false),
+    /// Gives vertices new ones on their edges.
+    ExtendVertices("Extend Vertices", false),
     /// Makes parts of meshes separate objects.
     Separate("Separate", false),
     /// Joins several objects into one.
@@ -237,6 +246,8 @@ commands! {
     Boolean("Boolean", false),
     /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
+    /// Replaces the faces of closed meshes with quads of equal size.
+    VoxelRemesh("Voxel Remesh", false),
     /// Shows meshes as subdivision surfaces while their cage is edited.
     SetSubdivision("Subdivision Surface", false),
     /// Replaces meshes with their subdivision surfaces.
@@ -325,6 +336,8 @@ commands! {
     Unwrap("Unwrap", false),
     /// Projects faces that face similarly together.
     SmartProject("Smart Projection", false),
+    /// Gives meshes the texture coordinates of another object.
+    TransferUvs("Transfer UVs", false),
     /// Arranges islands of texture coordinates in the image.
     PackIslands("Pack Islands", false),
     /// Moves texture coordinates.

@@ -98,6 +98,37 @@ impl Action for Rip {
     }
 }
 
+/// Gives each selected vertex a new one in the same position on the edge that is closest to a direction, and selects the
+/// new ones. A vertex without edges gets a loose edge.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ExtendVertices {
+    /// The direction; its length does not matter.
+    pub direction: [f64; 3],
+    /// The space of the direction.
+    pub space: TransformSpace,
+}
+
+impl Default for ExtendVertices {
+    fn default() -> Self {
+        Self { direction: [1.0, 0.0, 0.0], space: TransformSpace::default() }
+    }
+}
+
+impl Action for ExtendVertices {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (command, kind) = ("extending vertices", change.selection().kind());
+        let into_meshes = self.space.into_meshes(command, change)?;
+        change.edit_selected_meshes(command, "at least one selected vertex", |id, mesh, selection| {
+            let into_mesh = into_meshes.get(&id).copied().unwrap_or(DAffine3::IDENTITY);
+            let direction = into_mesh.matrix3 * DVec3::from(self.direction);
+            let made = mesh.extend_vertices(&selection.vertices(mesh, kind), direction)?;
+            Ok(AfterEdit::Select(Elements::Vertices(made)))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
 /// Moves the meshes of the selected objects into that of the active one, keeping their positions. The other
 /// objects are removed; their children stay in place and move to the removed object's parent.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]

@@ -1,9 +1,10 @@
-//! Solidifying faces, making struts of their edges, and reducing their number.
+//! Solidifying faces, making struts and tubes of edges, and reducing the number of faces.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 pub use trigon_modelling::{
-    DecimateSettings as Decimate, SolidifySettings as Solidify, WireframeSettings as Wireframe,
+    DecimateSettings as Decimate, SolidifySettings as Solidify, TubeSettings as Tube,
+    WireframeSettings as Wireframe,
 };
 
 use super::{Action, Outcome};
@@ -27,6 +28,17 @@ impl Action for Wireframe {
         let kind = change.selection().kind();
         change.edit_selected("making a wireframe", FACES, |mesh, selection| {
             let made = mesh.wireframe_faces(&selection.faces(mesh, kind), self)?;
+            Ok(AfterEdit::Select(Elements::Faces(made)))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+impl Action for Tube {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        change.edit_selected("making a tube", "at least one selected edge", |mesh, selection| {
+            let made = mesh.tube_edges(&selection.edges(mesh, kind), self)?;
             Ok(AfterEdit::Select(Elements::Faces(made)))
         })?;
         Ok(Outcome::silent())
@@ -98,6 +110,17 @@ mod tests {
         assert!(edited(&document).is_watertight() && edited(&document).face_count() == 72);
         document.undo().expect("one");
         assert_eq!(edited(&document).face_count(), 6);
+    }
+
+    #[test]
+    fn a_face_becomes_a_ring_and_is_undone() {
+        let mut document = editing_faces(primitives::grid(2.0, 2.0, 1, 1));
+        run(&mut document, json!({ "op": "tube", "radius": 0.1, "sides": 6 }));
+        assert_eq!(edited(&document).face_count(), 1 + 4 * 6);
+        document.undo().expect("one");
+        assert_eq!(edited(&document).face_count(), 1);
+        let refused = try_run(&mut document, json!({ "op": "tube", "sides": 2 })).expect_err("too few");
+        assert!(refused.to_string().contains("sides"), "{refused}");
     }
 
     #[test]

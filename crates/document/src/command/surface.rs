@@ -1,7 +1,8 @@
-//! Other faces for the same surface: Catmull-Clark, triangles, quads; filling holes and loops.
+//! Other faces for the same surface: Catmull-Clark, voxels, triangles, quads; filling holes and loops.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use trigon_modelling::{BridgeSettings as Bridge, VoxelRemeshSettings as VoxelRemesh};
 use trigon_modelling::{GridSides, QuadLimits};
 
 use super::action::{remake, whole_meshes};
@@ -32,6 +33,16 @@ impl Action for CatmullClark {
         let mut faces = 0;
         for id in whole_meshes(change, "subdividing")? {
             faces += remake(change, id, |mesh| Ok(mesh.catmull_clark(self.levels).map(drop)?))?;
+        }
+        Ok(Outcome::counted("made", faces, ["face", "faces"]))
+    }
+}
+
+impl Action for VoxelRemesh {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut faces = 0;
+        for id in whole_meshes(change, "remeshing by voxels")? {
+            faces += remake(change, id, |mesh| Ok(mesh.voxel_remesh(self).map(drop)?))?;
         }
         Ok(Outcome::counted("made", faces, ["face", "faces"]))
     }
@@ -110,20 +121,14 @@ impl Action for Fill {
     }
 }
 
-/// Joins two selected loops or chains of edges with a band of faces. Selected faces are removed and their
-/// outlines joined, so two faces become a handle or a hole.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Bridge {}
-
 impl Action for Bridge {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
         change.edit_selected("bridging", "two loops of edges", |mesh, selection| {
             let (faces, edges) = (selection.faces(mesh, kind), selection.edges(mesh, kind));
             let made = match &faces[..] {
-                [] => mesh.bridge_edges(&edges)?,
-                faces => mesh.bridge_faces(faces, &edges)?,
+                [] => mesh.bridge_edges(&edges, self)?,
+                faces => mesh.bridge_faces(faces, &edges, self)?,
             };
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
@@ -168,5 +173,43 @@ impl Action for GridFill {
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
         Ok(Outcome::counted("made", count, ["face", "faces"]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+    use trigon_mesh::primitives;
+
+    use crate::tests::commands::{edited, editing_faces, run, try_run};
+
+    #[test]
+    fn a_hole_is_bridged_through_a_cube_with_cuts_and_undone() {
+        let mut document = editing_faces(primitives::cube(2.0));
+        run(&mut document, json!({ "op": "inset", "mode": "individual", "thickness": 0.5 }));
+        run(&mut document, json!({ "op": "select_within", "min": [-0.6, -2, -0.6], "max": [0.6, 2, 0.6] }));
+        let before = edited(&document).face_count();
+        run(&mut document, json!({ "op": "bridge", "cuts": 3, "interpolation": "path" }));
+        assert_eq!(edited(&document).face_count(), before - 2 + 16);
+        assert!(edited(&document).is_watertight());
+        document.undo().expect("one");
+        assert_eq!(edited(&document).face_count(), before);
+        let refused = try_run(&mut document, json!({ "op": "bridge", "cuts": 2000 })).expect_err("too many");
+        assert!(refused.to_string().contains("cuts"), "{refused}");
+    }
+
+    #[test]
+    fn a_sphere_becomes_quads_and_is_undone() {
+        let mut document = editing_faces(primitives::icosphere(1.0, 2));
+        let outcome =
+            try_run(&mut document, json!({ "op": "voxel_remesh", "voxel_size": 0.25 })).expect("closed");
+        let mesh = edited(&document);
+        assert!(mesh.is_watertight() && mesh.faces().all(|face| mesh.face_size(face) == 4));
+        assert_eq!(outcome.message, format!("made {} faces", mesh.face_count()));
+        document.undo().expect("one");
+        assert_eq!(edited(&document).face_count(), 320);
+        let mut open = editing_faces(primitives::grid(1.0, 1.0, 2, 2));
+        let refused = try_run(&mut open, json!({ "op": "voxel_remesh" })).expect_err("open").to_string();
+        assert!(refused.contains("hole"), "{refused}");
     }
 }

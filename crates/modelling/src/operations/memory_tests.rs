@@ -32,7 +32,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 28] = [
+const OPERATIONS: [(&str, Operation); 31] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -82,11 +82,16 @@ const OPERATIONS: [(&str, Operation); 28] = [
         mesh.knife(&strokes).map(drop)
     }),
     ("wireframe", |mesh| mesh.wireframe_faces(&faces(mesh), &WireframeSettings::default()).map(drop)),
+    ("tube", |mesh| mesh.tube_edges(&rims(mesh), &TubeSettings::default()).map(drop)),
+    ("extend vertices", |mesh| mesh.extend_vertices(&vertices(mesh), DVec3::X).map(drop)),
     ("poke", |mesh| mesh.poke_faces(&faces(mesh), 0.1).map(drop)),
     ("convex hull", |mesh| mesh.convex_hull(&vertices(mesh), &HullSettings::default()).map(drop)),
     ("symmetrize", |mesh| mesh.symmetrize(&faces(mesh), &plane(), 0.0).map(drop)),
     ("fill", |mesh| mesh.fill_edges(&rims(mesh)).map(drop)),
-    ("bridge", |mesh| mesh.bridge_edges(&rims(mesh)).map(drop)),
+    ("bridge", |mesh| mesh.bridge_edges(&rims(mesh), &BridgeSettings::default()).map(drop)),
+    ("bridge with cuts", |mesh| {
+        mesh.bridge_edges(&rims(mesh), &BridgeSettings { cuts: 9, ..BridgeSettings::default() }).map(drop)
+    }),
     ("fill with a grid", |mesh| {
         let rim: Vec<EdgeId> = rims(mesh).into_iter().filter(|&edge| is_above(mesh, edge)).collect();
         mesh.grid_fill(&rim, GridSides::default()).map(drop)

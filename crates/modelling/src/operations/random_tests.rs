@@ -2,7 +2,7 @@
 //! non-manifold or open.
 
 use proptest::prelude::*;
-use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Plane, Vec3};
+use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3, Plane, Vec3};
 
 use super::*;
 use crate::modifier::{DecimateSettings, SolidifySettings};
@@ -15,7 +15,7 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
 }
 
 /// How many kinds of operations there are.
-const KINDS: u8 = 42;
+const KINDS: u8 = 45;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -127,6 +127,23 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             };
             let strokes: Vec<Vec<KnifePoint>> = faces.iter().map(|&face| parts(face)).collect();
             mesh.knife(&strokes).map(drop)
+        }
+        41 => {
+            // Three to eight voxels across, whatever other steps made of the mesh.
+            let points = mesh.vertices().map(|vertex| mesh.point(vertex));
+            let size = Bounds3::from_points(points).size().max_element();
+            let settings = VoxelRemeshSettings { voxel_size: size * (0.22 + 0.1 * a), project: b > 0.0 };
+            mesh.voxel_remesh(&settings).map(drop)
+        }
+        42 => {
+            let settings = TubeSettings { radius: 0.1, sides: 3, caps: a > 0.0, replace: b > 0.0 };
+            mesh.tube_edges(&edges, &settings).map(drop)
+        }
+        43 => {
+            let copy = mesh.clone();
+            let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_y(b), center);
+            let settings = TransferSettings { colors: a > 0.0, ..TransferSettings::default() };
+            mesh.transfer_values(&faces, &TransferSource { mesh: &copy, transform }, &settings)
         }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }

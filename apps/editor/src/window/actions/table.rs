@@ -61,6 +61,10 @@ actions! {
     "Edit/Boolean" "boolean.union" "Union" "Ctrl+Numpad+" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
     "Edit/Boolean" "boolean.difference" "Difference" "Ctrl+Numpad-" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
     "Edit/Boolean" "boolean.intersection" "Intersection" "Ctrl+Numpad*" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
+    "Edit" "edit.transfer_uvs" "Transfer UVs from Active" "" TwoObjects Run(r#"{"op":"transfer_uvs"}"#) => "Gives the other selected objects the texture coordinates of the active one.";
+    "Edit/Boolean" "boolean.union" "Union" "" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
+    "Edit/Boolean" "boolean.difference" "Difference" "" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
+    "Edit/Boolean" "boolean.intersection" "Intersection" "" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
     "Edit/Parent" "parent.menu" "Parent Menu" "Ctrl+P" Objects Ui(UiRequest::Popup("Edit/Parent")) => "Chooses how objects hang on the active one.";
     "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: true }) => "Hangs the selected objects on the active one; they stay where they are.";
     "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";
@@ -183,11 +187,13 @@ actions! {
     "Mesh" "mesh.edge_slide" "Slide" "Shift+V" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours, or vertices along their edges (G G).";
     "Mesh" "mesh.subdivide" "Subdivide" "" Elements Run(r#"{"op":"subdivide"}"#) => "Cuts the selected edges in half.";
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes into smooth surfaces.";
+    "Mesh" "mesh.voxel_remesh" "Voxel Remesh" "" EditMode Run(r#"{"op":"voxel_remesh"}"#) => "Replaces the faces of closed meshes with quads of equal size; adjust it with F9.";
     "Mesh" "mesh.un_subdivide" "Un-Subdivide" "" Elements Run(r#"{"op":"un_subdivide"}"#) => "Reverses one subdivision of the selected quads.";
     "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Duplicates the selection, and moves the copy.";
     "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
     "Mesh" "mesh.rip" "Rip" "V" Elements Ui(UiRequest::Rip { fill: false }) => "Opens the mesh along edges or at vertices, and moves the pointer's side.";
     "Mesh" "mesh.rip_fill" "Rip Fill" "Alt+V" Elements Ui(UiRequest::Rip { fill: true }) => "Rips, and fills the gap with faces.";
+    "Mesh" "mesh.extend_vertices" "Extend Vertices" "" Elements Run(r#"{"op":"extend_vertices"}"#) => "Gives vertices new ones on their edges; adjust the direction with F9.";
     "Mesh/Separate" "separate.menu" "Separate Menu" "P" EditMode Ui(UiRequest::Popup("Mesh/Separate")) => "Chooses which parts become objects of their own.";
     "Mesh/Separate" "mesh.separate" "Selection" "" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces a separate object.";
     "Mesh/Separate" "separate.material" "By Material" "" Meshes Run(r#"{"op":"separate","by":"material"}"#) => "Makes the faces of each material a separate object.";
@@ -195,9 +201,10 @@ actions! {
     "Mesh" "mesh.fill" "Make Face / Fill" "F Alt+F" Elements Run(r#"{"op":"fill"}"#) => "Fills loops with faces.";
     "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";
     "Mesh" "mesh.connect" "Connect Vertices" "J" Elements Run(r#"{"op":"connect_vertices"}"#) => "Connects vertices with edges through faces.";
-    "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two edge loops, or the outlines of two faces, with faces.";
+    "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two edge loops, or the outlines of two faces, with faces; adjust cuts and profile with F9.";
     "Mesh" "mesh.solidify" "Solidify Faces" "" Elements Run(r#"{"op":"solidify"}"#) => "Gives faces a second layer behind them; adjust the thickness with F9.";
     "Mesh" "mesh.wireframe" "Wireframe" "" Elements Run(r#"{"op":"wireframe"}"#) => "Makes struts of the edges of faces; adjust the thickness with F9.";
+    "Mesh" "mesh.tube" "Tube" "" Elements Run(r#"{"op":"tube"}"#) => "Makes tubes around chains of edges; adjust radius and sides with F9.";
     "Mesh" "mesh.spin" "Spin" "" Elements Run(r#"{"op":"spin"}"#) => "Sweeps edges and vertices around an upright axis; adjust it with F9.";
     "Mesh" "mesh.bisect" "Bisect" "" Elements Run(r#"{"op":"bisect"}"#) => "Cuts faces along the plane x = 0; adjust it with F9.";
     "Mesh" "mesh.decimate" "Decimate" "" Elements Run(r#"{"op":"decimate"}"#) => "Reduces the triangles of faces to half; adjust it with F9.";

@@ -108,17 +108,23 @@ impl EditMesh {
         if let Some(vertex) = self.vertices().find(|&vertex| !self.position(vertex).is_finite()) {
             return Err(Refusal::Overflow(vertex));
         }
-        self.edges().try_for_each(|edge| self.check_sides(edge))?;
+        self.edges().try_for_each(|edge| self.check_sides(edge, OPERATION))?;
         match self.face_of_a_shell_that_looks_inwards() {
             Some(face) => {
                 let vertex = self.corner_vertex(self.face_corners(face).next().expect("a face has corners"));
-                Err(self.not_solid(SolidFault::InsideOut(face), self.point(vertex)))
+                let (fault, position) = (SolidFault::InsideOut(face), self.point(vertex));
+                Err(Refusal::NotSolid { operation: OPERATION, fault, position })
             }
             None => Ok(()),
         }
     }
 
-    fn check_sides(&self, edge: EdgeId) -> Result<(), Refusal> {
+    /// Refuses an edge at which not as many faces run in one direction as in the other.
+    pub(in crate::operations) fn check_sides(
+        &self,
+        edge: EdgeId,
+        operation: &'static str,
+    ) -> Result<(), Refusal> {
         let [a, b] = self.edge_vertices(edge);
         let fault = match self.edge_join(edge) {
             EdgeJoin::Loose | EdgeJoin::Closed => return Ok(()),
@@ -135,11 +141,8 @@ impl EditMesh {
                 }
             }
         };
-        Err(self.not_solid(fault, (self.point(a) + self.point(b)) / 2.0))
-    }
-
-    fn not_solid(&self, fault: SolidFault, position: DVec3) -> Refusal {
-        Refusal::NotSolid { operation: OPERATION, fault, position }
+        let position = (self.point(a) + self.point(b)) / 2.0;
+        Err(Refusal::NotSolid { operation, fault, position })
     }
 
     /// A face of a shell (faces connected by vertices) that encloses a negative volume and is not within the box of

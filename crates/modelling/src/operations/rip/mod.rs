@@ -2,6 +2,7 @@
 //!
 //! `sides` finds which corners lie on which side of the edges. Here one side gets new vertices and edges.
 
+mod extend;
 mod sides;
 #[cfg(test)]
 mod tests;

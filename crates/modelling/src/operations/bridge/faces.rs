@@ -1,8 +1,9 @@
 //! Bridging two regions of faces: a handle, or a hole through a solid.
 
-use super::fill::Filled;
+use super::BridgeSettings;
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId};
+use crate::operations::fill::Filled;
 use crate::refusal::Refusal;
 
 impl EditMesh {
@@ -11,8 +12,14 @@ impl EditMesh {
     /// of the loops: the other end may be a hole.
     ///
     /// # Errors
-    /// One does not exist, or the outlines are not two loops without a common vertex.
-    pub fn bridge_faces(&mut self, faces: &[FaceId], edges: &[EdgeId]) -> Result<Filled, Refusal> {
+    /// One does not exist, or the outlines are not two loops without a common vertex; a parameter is out of
+    /// range; there would be too many elements.
+    pub fn bridge_faces(
+        &mut self,
+        faces: &[FaceId],
+        edges: &[EdgeId],
+        settings: &BridgeSettings,
+    ) -> Result<Filled, Refusal> {
         faces.iter().try_for_each(|&face| self.check_face(face))?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         let mut sorted = faces.to_vec();
@@ -32,7 +39,7 @@ impl EditMesh {
         self.whole(|mesh| {
             sorted.iter().try_for_each(|&face| mesh.remove_face(face))?;
             mesh.remove_loose(&inner);
-            mesh.bridge_edges(&loops)
+            mesh.bridge_edges(&loops, settings)
         })
     }
 }
@@ -64,7 +71,7 @@ mod tests {
         let mut mesh = block();
         let ends = faces_at(&mesh, |middle| middle.x.abs() > 0.9 && middle.y.abs() + middle.z.abs() < 0.1);
         assert_eq!(ends.len(), 2, "one on each side");
-        let made = mesh.bridge_faces(&ends, &[]).expect("two loops");
+        let made = mesh.bridge_faces(&ends, &[], &BridgeSettings::default()).expect("two loops");
         mesh.check_structure().expect("whole");
         assert_eq!(made.faces.len(), 4, "the sides of the hole");
         let [v, e, f] = [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()];
@@ -81,11 +88,11 @@ mod tests {
         let (one, other) = (end(&mesh, 1.0), end(&mesh, -1.0));
         let counts = |mesh: &EditMesh| [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()];
         let before = counts(&mesh);
-        mesh.bridge_faces(&one, &[]).expect_err("one loop alone");
+        mesh.bridge_faces(&one, &[], &BridgeSettings::default()).expect_err("one loop alone");
         assert_eq!(counts(&mesh), before, "as it was");
         let hole: Vec<EdgeId> = mesh.face_edges(other[0]).collect();
         mesh.delete_faces(&other).expect("it is there");
-        mesh.bridge_faces(&one, &hole).expect("a face and a hole");
+        mesh.bridge_faces(&one, &hole, &BridgeSettings::default()).expect("a face and a hole");
         mesh.check_structure().expect("whole");
         assert!(mesh.edges().all(|edge| mesh.edge_faces(edge).count() == 2), "closed");
     }
@@ -98,7 +105,7 @@ mod tests {
         let (left, right): (Vec<FaceId>, Vec<FaceId>) =
             faces.iter().partition(|&&face| mesh.face_center(face).x < 0.0);
         assert_eq!((left.len(), right.len(), all), (4, 4, 12), "two columns of two at each end");
-        mesh.bridge_faces(&faces, &[]).expect("two loops");
+        mesh.bridge_faces(&faces, &[], &BridgeSettings::default()).expect("two loops");
         mesh.check_structure().expect("whole");
         assert!(mesh.vertices().all(|vertex| mesh.vertex_edges(vertex).next().is_some()), "no loose vertex");
     }
