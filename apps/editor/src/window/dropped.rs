@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::path::{Path, PathBuf};
 
 use trigon_document::{
-    AddMaterial, AddObject, AssignTexture, MaterialName, ObjectName, Rotation, SetMaterial, SetTransform, Shape,
-    SurfaceAlpha, SurfaceShading, TextureSource,
+    AddMaterial, AddObject, AssignTexture, MaterialName, ObjectName, Rotation, SetMaterial, SetTransform,
+    Shape, SurfaceAlpha, SurfaceShading, TextureSource,
 };
 use trigon_io::{Limits, load_image};
 use trigon_window::Stage;
@@ -79,7 +79,8 @@ impl Editor {
                 ..SetMaterial::default()
             };
             self.run(look.into());
-            let view = if stage.orbit.is_orthographic() { stage.camera().orientation } else { DQuat::IDENTITY };
+            let view =
+                if stage.orbit.is_orthographic() { stage.camera().orientation } else { DQuat::IDENTITY };
             let xyzw = (view * UPRIGHT).to_array();
             let rotation = Some(Rotation::Quaternion { xyzw });
             self.run(SetTransform { rotation, ..SetTransform::default() }.into());

@@ -491,7 +491,9 @@ fn what_was_hidden_is_selected_when_it_is_shown_again() {
 #[test]
 fn a_reference_image_faces_the_view_and_is_half_transparent() {
     let image = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images/showcase.png");
-    for (view, towards) in [("Numpad1", DVec3::Z), ("Numpad3", DVec3::X), ("Numpad7", DVec3::Y), ("Home", DVec3::Z)] {
+    for (view, towards) in
+        [("Numpad1", DVec3::Z), ("Numpad3", DVec3::X), ("Numpad7", DVec3::Y), ("Home", DVec3::Z)]
+    {
         let mut worked = Worked::new();
         worked.chord(view);
         let Worked { editor, stage } = &mut worked;
