@@ -260,16 +260,17 @@ actions! {
     "Mesh" "mesh.hide_others" "Hide Unselected" "Shift+H" Elements Run(r#"{"op":"hide","unselected":true}"#) => "Hides everything except the selection.";
     "Mesh" "mesh.reveal" "Reveal Hidden" "Alt+H" EditMode Run(r#"{"op":"reveal"}"#) => "Shows everything hidden.";
 
-    "UV" "uv.menu" "UV Menu" "U" EditMode Ui(UiRequest::Popup("UV")) => "Chooses how faces get texture coordinates.";
-    "UV" "uv.unwrap" "Unwrap" "" Elements Run(r#"{"op":"unwrap"}"#) => "Lays faces flat along seams, with their angles.";
-    "UV" "uv.minimum_stretch" "Minimum Stretch" "" Elements Run(r#"{"op":"unwrap","minimize_stretch":50}"#) => "Lays faces flat along seams, with sizes and angles as even as possible.";
-    "UV" "uv.smart" "Smart Projection" "" Elements Run(r#"{"op":"smart_project"}"#) => "Projects faces that face similarly together; needs no seams.";
-    "UV" "uv.box" "Cube Projection" "" Elements Run(r#"{"op":"project_uvs_on_box"}"#) => "Projects texture coordinates from the six sides of a cube.";
-    "UV" "uv.cylinder" "Cylinder Projection" "" Elements Run(r#"{"op":"project_uvs_cylinder"}"#) => "Projects texture coordinates from an upright cylinder around the faces; adjust the axis with F9.";
-    "UV" "uv.sphere" "Sphere Projection" "" Elements Run(r#"{"op":"project_uvs_sphere"}"#) => "Projects texture coordinates from a sphere around the faces; adjust the axis with F9.";
-    "UV" "uv.view" "From View" "" Elements Ui(UiRequest::ProjectFromView) => "Projects texture coordinates in the direction of the view, as large as the selection.";
-    "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
-    "UV" "uv.follow" "Follow Active Quad" "" Elements Run(r#"{"op":"follow_active_quad"}"#) => "Lays the selected quads beside the active one, as rows and columns.";
+    "UV/Unwrap" "uv.menu" "Unwrap Menu" "U" EditMode Ui(UiRequest::Popup("UV/Unwrap")) => "Chooses how faces get texture coordinates.";
+    "UV/Unwrap" "uv.unwrap" "Unwrap" "" Elements Run(r#"{"op":"unwrap"}"#) => "Lays faces flat along seams, with their angles.";
+    "UV/Unwrap" "uv.minimum_stretch" "Minimum Stretch" "" Elements Run(r#"{"op":"unwrap","minimize_stretch":50}"#) => "Lays faces flat along seams, with sizes and angles as even as possible.";
+    "UV/Unwrap" "uv.smart" "Smart Projection" "" Elements Run(r#"{"op":"smart_project"}"#) => "Projects faces that face similarly together; needs no seams.";
+    "UV/Unwrap" "uv.box" "Cube Projection" "" Elements Run(r#"{"op":"project_uvs_on_box"}"#) => "Projects texture coordinates from the six sides of a cube.";
+    "UV/Unwrap" "uv.cylinder" "Cylinder Projection" "" Elements Run(r#"{"op":"project_uvs_cylinder"}"#) => "Projects texture coordinates from an upright cylinder around the faces; adjust the axis with F9.";
+    "UV/Unwrap" "uv.sphere" "Sphere Projection" "" Elements Run(r#"{"op":"project_uvs_sphere"}"#) => "Projects texture coordinates from a sphere around the faces; adjust the axis with F9.";
+    "UV/Unwrap" "uv.view" "From View" "" Elements Ui(UiRequest::ProjectFromView) => "Projects texture coordinates in the direction of the view, as large as the selection.";
+    "UV/Unwrap" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects texture coordinates from the front; adjust the direction with F9.";
+    "UV/Unwrap" "uv.follow" "Follow Active Quad" "" Elements Run(r#"{"op":"follow_active_quad"}"#) => "Lays the selected quads beside the active one, as rows and columns.";
+    "UV/Unwrap" "uv.pack" "Pack Islands" "" Elements Run(r#"{"op":"pack_islands"}"#) => "Arranges islands of texture coordinates in the image, in even scale.";
     "UV" "uv.layout" "Save UV Layout…" "" EditMode View(ViewRequest::UvLayout) => "Writes the outlines of faces as an image, to be painted over in another program.";
     "UV" "uv.pin" "Pin UVs" "" Elements Run(r#"{"op":"pin_uvs"}"#) => "Holds texture coordinates where they are when faces are unwrapped.";
     "UV" "uv.unpin" "Unpin UVs" "" Elements Run(r#"{"op":"pin_uvs","pinned":false}"#) => "Frees pinned texture coordinates.";
@@ -277,7 +278,6 @@ actions! {
     "UV" "uv.align" "Align UVs" "" Elements Run(r#"{"op":"align_uvs"}"#) => "Moves texture coordinates to an upright or level line; choose it with F9.";
     "UV" "uv.straighten" "Straighten UVs" "" Elements Run(r#"{"op":"straighten_uvs"}"#) => "Moves chains of edges onto the line between their ends.";
     "UV" "uv.average" "Average Island Scale" "" Elements Run(r#"{"op":"average_island_scale"}"#) => "Gives islands sizes in proportion to those on the surface.";
-    "UV" "uv.pack" "Pack Islands" "" Elements Run(r#"{"op":"pack_islands"}"#) => "Arranges islands of texture coordinates in the image, in even scale.";
     "View" "view.frame_selected" "Frame Selected" "Numpad." Nothing View(ViewRequest::FrameSelected) => "Frames the selection.";
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Frames the whole scene.";
     "View" "view.local" "Local View" "Numpad/ /" ObjectMode View(ViewRequest::ToggleLocal) => "Shows only the selection, or everything again.";

@@ -17,7 +17,7 @@ const CRATE: &str = "
     keys Shift+F10
     see 30 of 30 faces selected
     image crate
-    keys U
+    press UV
     press Save UV Layout…
     keys Ctrl+A
     type $FOLDER/layout.png

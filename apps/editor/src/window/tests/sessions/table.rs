@@ -35,6 +35,7 @@ const TABLE: &str = "
     mesh Cube 48 92 46
     keys A                                          # texture coordinates
     press UV
+    press Unwrap
     press Cube Projection
     see Cube Projection
     keys Tab
