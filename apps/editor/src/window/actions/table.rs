@@ -187,13 +187,13 @@ actions! {
     "Mesh" "mesh.edge_slide" "Slide" "Shift+V" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours, or vertices along their edges (G G).";
     "Mesh" "mesh.subdivide" "Subdivide" "" Elements Run(r#"{"op":"subdivide"}"#) => "Cuts the selected edges in half.";
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes into smooth surfaces.";
-    "Mesh" "mesh.voxel_remesh" "Voxel Remesh" "" EditMode Run(r#"{"op":"voxel_remesh"}"#) => "Replaces the faces of closed meshes with quads of equal size; adjust it with F9.";
+    "Mesh" "mesh.voxel_remesh" "Voxel Remesh" "Ctrl+Alt+R" Meshes Run(r#"{"op":"voxel_remesh"}"#) => "Replaces the faces of closed meshes with quads of equal size; adjust it with F9.";
     "Mesh" "mesh.un_subdivide" "Un-Subdivide" "" Elements Run(r#"{"op":"un_subdivide"}"#) => "Reverses one subdivision of the selected quads.";
     "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Duplicates the selection, and moves the copy.";
     "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
     "Mesh" "mesh.rip" "Rip" "V" Elements Ui(UiRequest::Rip { fill: false }) => "Opens the mesh along edges or at vertices, and moves the pointer's side.";
     "Mesh" "mesh.rip_fill" "Rip Fill" "Alt+V" Elements Ui(UiRequest::Rip { fill: true }) => "Rips, and fills the gap with faces.";
-    "Mesh" "mesh.extend_vertices" "Extend Vertices" "" Elements Run(r#"{"op":"extend_vertices"}"#) => "Gives vertices new ones on their edges; adjust the direction with F9.";
+    "Mesh" "mesh.extend_vertices" "Extend Vertices" "Alt+D" Elements Run(r#"{"op":"extend_vertices"}"#) => "Gives vertices new ones on their edges; adjust the direction with F9.";
     "Mesh/Separate" "separate.menu" "Separate Menu" "P" EditMode Ui(UiRequest::Popup("Mesh/Separate")) => "Chooses which parts become objects of their own.";
     "Mesh/Separate" "mesh.separate" "Selection" "" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces a separate object.";
     "Mesh/Separate" "separate.material" "By Material" "" Meshes Run(r#"{"op":"separate","by":"material"}"#) => "Makes the faces of each material a separate object.";
