@@ -238,7 +238,7 @@ impl Action for Knife {
 }
 
 /// How many faces a cut made, with a warning if some of it cut nothing.
-fn cut_outcome(faces: usize, uncut: usize) -> Outcome {
+pub(super) fn cut_outcome(faces: usize, uncut: usize) -> Outcome {
     let mut outcome = Outcome::counted("made", faces, ["face", "faces"]);
     if uncut > 0 {
         let pieces = if uncut == 1 {

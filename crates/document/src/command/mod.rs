@@ -8,6 +8,7 @@ mod action;
 mod apply_transform;
 mod boolean;
 mod cut;
+mod cut_by_others;
 mod delete;
 mod edit_uvs;
 mod element_marks;
@@ -50,6 +51,7 @@ pub use action::{ObjectName, Outcome};
 pub use apply_transform::ApplyTransform;
 pub use boolean::Boolean;
 pub use cut::{Knife, LoopCut, PathPoint, SlideEdges, SlideVertices, Subdivide};
+pub use cut_by_others::{IntersectFaces, KnifeProject};
 pub use delete::{Delete, DeleteObjects, Deleted, Dissolve, DissolveFlat, Merge, MergeAt};
 pub use edit_uvs::{AlignUvs, AverageIslandScale, PinUvs, StitchUvs, StraightenUvs};
 pub use element_marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
@@ -290,8 +292,12 @@ commands! {
     LoopCut("Loop Cut", false),
     /// Slides loops of edges.
     SlideEdges("Slide Edges", false),
-    /// Cuts faces along a path.
+    /// Cuts faces along strokes.
     Knife("Knife", false),
+    /// Cuts faces along the lines in which they cross others.
+    IntersectFaces("Intersect (Knife)", false),
+    /// Cuts faces along the outlines of other objects.
+    KnifeProject("Knife Project", false),
     /// Cuts faces along a plane.
     Bisect("Bisect", false),
     /// Slides vertices along their edges.

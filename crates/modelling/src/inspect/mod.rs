@@ -17,7 +17,9 @@ mod triangles_touch;
 pub use doubles::{DoubledFace, DoubledVertex};
 pub use edges::BoundaryLoop;
 pub use faces::NonPlanarFace;
+pub(crate) use touching::FaceTriangle;
 pub use touching::TouchingFaces;
+pub(crate) use triangle_tree::{PairSearch, TriangleTree};
 
 use super::edit_mesh::EditMesh;
 use super::ids::{EdgeId, FaceId, VertexId};

@@ -20,10 +20,10 @@ pub struct TouchingFaces {
 
 /// A triangle of a face.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FaceTriangle {
-    pub(super) face: FaceId,
-    pub(super) vertices: [VertexId; 3],
-    pub(super) positions: [Vec3; 3],
+pub(crate) struct FaceTriangle {
+    pub(crate) face: FaceId,
+    pub(crate) vertices: [VertexId; 3],
+    pub(crate) positions: [Vec3; 3],
 }
 
 impl EditMesh {
@@ -60,7 +60,7 @@ impl EditMesh {
     }
 
     /// The triangles of all faces that have an area.
-    fn triangles(&self) -> Vec<FaceTriangle> {
+    pub(crate) fn triangles(&self) -> Vec<FaceTriangle> {
         let mut triangulator = Triangulator::default();
         let (mut vertices, mut positions, mut cut) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangles = Vec::with_capacity(2 * self.face_count());

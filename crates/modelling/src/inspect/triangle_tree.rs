@@ -8,14 +8,14 @@ use super::touching::FaceTriangle;
 const LEAF: usize = 4;
 
 /// Triangles in an order in which those near each other are together, and the boxes around them.
-pub(super) struct TriangleTree {
+pub(crate) struct TriangleTree {
     triangles: Vec<FaceTriangle>,
     /// As a heap: the children of box i are 2 i + 1 and 2 i + 2.
     boxes: Vec<[Vec3; 2]>,
 }
 
 impl TriangleTree {
-    pub(super) fn new(mut triangles: Vec<FaceTriangle>) -> Self {
+    pub(crate) fn new(mut triangles: Vec<FaceTriangle>) -> Self {
         let leaves = triangles.len().div_ceil(LEAF).next_power_of_two();
         let mut boxes = vec![[Vec3::INFINITY, Vec3::NEG_INFINITY]; 2 * leaves - 1];
         build(&mut triangles, &mut boxes, 0);
@@ -57,7 +57,7 @@ fn overlap(a: [Vec3; 2], b: [Vec3; 2]) -> bool {
 }
 
 /// The search for pairs.
-pub(super) struct PairSearch<'a> {
+pub(crate) struct PairSearch<'a> {
     tree: &'a TriangleTree,
     stack: Vec<Range>,
     /// How many more pairs are looked at.
@@ -73,7 +73,7 @@ struct Range {
 }
 
 impl<'a> PairSearch<'a> {
-    pub(super) fn new(tree: &'a TriangleTree) -> Self {
+    pub(crate) fn new(tree: &'a TriangleTree) -> Self {
         /// Pairs for each triangle before the search is ended: a fair mesh has some tens; where
         /// most boxes overlap most others it would never end.
         const PAIRS: usize = 1000;
@@ -84,7 +84,7 @@ impl<'a> PairSearch<'a> {
 
     /// Calls back with each pair of triangles whose boxes overlap, until that says false or there
     /// are too many; whether all were shown.
-    pub(super) fn for_each_pair(
+    pub(crate) fn for_each_pair(
         &mut self,
         mut call: impl FnMut(&FaceTriangle, &FaceTriangle) -> bool,
     ) -> bool {

@@ -32,7 +32,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 31] = [
+const OPERATIONS: [(&str, Operation); 32] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -80,6 +80,12 @@ const OPERATIONS: [(&str, Operation); 31] = [
         };
         let strokes: Vec<Vec<KnifePoint>> = mesh.faces().map(hole).collect();
         mesh.knife(&strokes).map(drop)
+    }),
+    ("knife project", |mesh| {
+        let tool = EditMesh::from_mesh(&primitives::cube(0.8)).0;
+        let projection =
+            KnifeProjection { transform: DAffine3::IDENTITY, direction: DVec3::X, cut_through: true };
+        mesh.knife_project(&faces(mesh), &tool, &projection).map(drop)
     }),
     ("wireframe", |mesh| mesh.wireframe_faces(&faces(mesh), &WireframeSettings::default()).map(drop)),
     ("tube", |mesh| mesh.tube_edges(&rims(mesh), &TubeSettings::default()).map(drop)),

@@ -84,7 +84,7 @@ pub use grid_fill::GridSides;
 pub use hide::VisibilityChange;
 pub use hull::{ConvexHull, HullSettings};
 pub use inset::{Inset, InsetFaces};
-pub use knife::{KnifeCut, KnifePoint, ProjectedLine, Sight};
+pub use knife::{IntersectWith, KnifeCut, KnifePoint, KnifeProjection, ProjectedLine, Sight};
 pub use loop_cut::{LoopCut, LoopCutSettings};
 pub use merge::MergedVertices;
 pub use mirror::Mirrored;

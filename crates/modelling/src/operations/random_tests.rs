@@ -15,7 +15,7 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
 }
 
 /// How many kinds of operations there are.
-const KINDS: u8 = 45;
+const KINDS: u8 = 47;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -144,6 +144,18 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_y(b), center);
             let settings = TransferSettings { colors: a > 0.0, ..TransferSettings::default() };
             mesh.transfer_values(&faces, &TransferSource { mesh: &copy, transform }, &settings)
+        }
+        // All faces of a large mesh that winds through itself cross most others.
+        44 | 45 if mesh.face_count() > 100 => Err(Refusal::TooMany),
+        44 => {
+            let with = if a > 0.0 { IntersectWith::Others } else { IntersectWith::Themselves };
+            mesh.intersect_faces(&faces, with).map(drop)
+        }
+        45 => {
+            let tool = mesh.clone();
+            let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_x(b), center * 0.2);
+            let projection = KnifeProjection { transform, direction: center, cut_through: b > 0.0 };
+            mesh.knife_project(&faces, &tool, &projection).map(drop)
         }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }

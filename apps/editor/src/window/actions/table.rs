@@ -206,6 +206,8 @@ actions! {
     "Mesh" "mesh.wireframe" "Wireframe" "" Elements Run(r#"{"op":"wireframe"}"#) => "Makes struts of the edges of faces; adjust the thickness with F9.";
     "Mesh" "mesh.tube" "Tube" "" Elements Run(r#"{"op":"tube"}"#) => "Makes tubes around chains of edges; adjust radius and sides with F9.";
     "Mesh" "mesh.spin" "Spin" "" Elements Run(r#"{"op":"spin"}"#) => "Sweeps edges and vertices around an upright axis; adjust it with F9.";
+    "Mesh" "mesh.intersect" "Intersect (Knife)" "" Elements Run(r#"{"op":"intersect_faces"}"#) => "Cuts the selected faces and others along the lines in which they cross; F9 lets them cross each other.";
+    "Mesh" "mesh.knife_project" "Knife Project" "" Elements Run(r#"{"op":"knife_project"}"#) => "Cuts the selected faces along the outlines of other selected objects, seen from above; adjust the direction with F9.";
     "Mesh" "mesh.bisect" "Bisect" "" Elements Run(r#"{"op":"bisect"}"#) => "Cuts faces along the plane x = 0; adjust it with F9.";
     "Mesh" "mesh.decimate" "Decimate" "" Elements Run(r#"{"op":"decimate"}"#) => "Reduces the triangles of faces to half; adjust it with F9.";
     "Mesh" "mesh.triangulate" "Triangulate" "Ctrl+T" Elements Run(r#"{"op":"triangulate"}"#) => "Cuts faces into triangles.";

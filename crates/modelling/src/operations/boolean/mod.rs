@@ -29,6 +29,7 @@ use self::operation::OPERATION;
 pub use self::operation::{BooleanTool, Combined};
 use self::outlines::{PatchPolygon, outlines};
 use self::solid::Sources;
+pub(super) use self::solid::is_flat;
 pub(super) use self::values::SourceFace;
 use self::weave::Weave;
 pub(super) use self::weave::position_key;

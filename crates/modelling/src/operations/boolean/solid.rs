@@ -84,7 +84,7 @@ fn number_of(mesh: &EditMesh, vertex: VertexId, numbers: &mut [u32], solid: &mut
 }
 
 /// Whether all of a polygon lies in a plane, but for the rounding of its coordinates.
-fn is_flat(positions: &[Vec3]) -> bool {
+pub(in crate::operations) fn is_flat(positions: &[Vec3]) -> bool {
     let normal = area_vector(positions.iter().map(|position| position.as_dvec3())).normalize_or_zero();
     let (Some(first), true) = (positions.first(), positions.len() > 3) else { return true };
     let first = first.as_dvec3();

@@ -4,9 +4,13 @@
 //! divide the face; `divide` makes them. All is known before anything is changed.
 
 mod divide;
+mod intersect;
 mod line;
 mod net;
+#[cfg(test)]
+mod others_tests;
 mod path;
+mod project;
 #[cfg(test)]
 mod tests;
 mod through;
@@ -19,8 +23,10 @@ use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId, VertexId};
 use crate::numbering::sorted_once;
 use crate::refusal::Refusal;
+pub use intersect::IntersectWith;
 pub use line::ProjectedLine;
-use path::{CutFace, CutPlan, CutPoint, LineAlong, Site};
+use path::{CutFace, CutLine, CutPlan, CutPoint, LineAlong, Site};
+pub use project::KnifeProjection;
 pub use through::Sight;
 use trigon_math::Vec3;
 
@@ -85,13 +91,14 @@ impl EditMesh {
             for &point in stroke {
                 points.push(self.cut_point(point)?);
             }
-            lines.extend(points[first..].windows(2).map(|pair| [pair[0], pair[1]]));
+            let pairs = points[first..].windows(2);
+            lines.extend(pairs.map(|pair| CutLine { ends: [pair[0], pair[1]], face: None }));
         }
         self.cut_lines(&lines, &points)
     }
 
     /// Cuts along lines. The vertices are those of some of their ends.
-    fn cut_lines(&mut self, lines: &[[CutPoint; 2]], points: &[CutPoint]) -> Result<KnifeCut, Refusal> {
+    fn cut_lines(&mut self, lines: &[CutLine], points: &[CutPoint]) -> Result<KnifeCut, Refusal> {
         let plan = self.plan_cut(lines)?;
         self.check_capacity_for(self.needed_for(&plan))?;
         self.whole(|mesh| {

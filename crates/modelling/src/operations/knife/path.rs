@@ -27,7 +27,15 @@ pub(super) struct CutPoint {
     pub(super) site: Site,
     pub(super) position: Vec3,
     /// On an edge the position along it, from 0 to 1.
-    parameter: f64,
+    pub(super) parameter: f64,
+}
+
+/// A straight line between two points.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CutLine {
+    pub(super) ends: [CutPoint; 2],
+    /// The face that it is within; `None` for the lowest that has both ends.
+    pub(super) face: Option<FaceId>,
 }
 
 /// A vertex that an edge gets.
@@ -70,7 +78,14 @@ impl EditMesh {
                 self.check_vertex(vertex)?;
                 Ok(self.cut_point_at(vertex))
             }
-            KnifePoint::Edge(edge, parameter) => self.cut_point_on(edge, parameter),
+            KnifePoint::Edge(edge, parameter) => {
+                self.check_edge(edge)?;
+                if !(0.0..=1.0).contains(&parameter) {
+                    let (name, range) = ("the position on the edge", "0 to 1");
+                    return Err(Refusal::OutOfRange { parameter: name, value: parameter, range });
+                }
+                Ok(self.on_edge(edge, parameter))
+            }
             KnifePoint::Face(face, position) => {
                 self.check_face(face)?;
                 let Some(parts) = self.mean_value_parts(face, position.as_dvec3()) else {
@@ -85,40 +100,37 @@ impl EditMesh {
         }
     }
 
-    fn cut_point_at(&self, vertex: VertexId) -> CutPoint {
+    pub(super) fn cut_point_at(&self, vertex: VertexId) -> CutPoint {
         CutPoint { site: Site::Vertex(vertex), position: self.position(vertex), parameter: 0.0 }
     }
 
-    fn cut_point_on(&self, edge: EdgeId, parameter: f64) -> Result<CutPoint, Refusal> {
-        self.check_edge(edge)?;
-        if !(0.0..=1.0).contains(&parameter) {
-            let (name, range) = ("the position on the edge", "0 to 1");
-            return Err(Refusal::OutOfRange { parameter: name, value: parameter, range });
-        }
+    /// The point of an edge, or the end that it rounds to.
+    pub(super) fn on_edge(&self, edge: EdgeId, parameter: f64) -> CutPoint {
         let ends = self.edge_vertices(edge);
         let [a, b] = ends.map(|vertex| self.point(vertex));
         // As an edge is split.
         let position = (a * (1.0 - parameter) + b * parameter).as_vec3();
-        // What rounds to an end is it.
         let end = ends.into_iter().find(|&end| self.position(end) == position);
         let on_edge = CutPoint { site: Site::Edge(edge), position, parameter };
-        Ok(end.map_or(on_edge, |end| self.cut_point_at(end)))
+        end.map_or(on_edge, |end| self.cut_point_at(end))
     }
 
     /// What lines between points do.
     ///
     /// # Errors
     /// The ends of a line have no face in common.
-    pub(super) fn plan_cut(&self, lines: &[[CutPoint; 2]]) -> Result<CutPlan, Refusal> {
+    pub(super) fn plan_cut(&self, lines: &[CutLine]) -> Result<CutPlan, Refusal> {
         let mut plan = CutPlan::default();
         plan.add_edge_cuts(lines);
         let mut by_face: BTreeMap<FaceId, Vec<[CutPoint; 2]>> = BTreeMap::new();
-        for &ends in lines.iter().filter(|[from, to]| from.position != to.position) {
+        for &CutLine { ends, face } in
+            lines.iter().filter(|line| line.ends[0].position != line.ends[1].position)
+        {
             if let Some(edge) = self.edge_along(ends) {
                 plan.along.push(LineAlong { edge, ends });
                 continue;
             }
-            let Some(face) = self.common_face(ends) else {
+            let Some(face) = face.or_else(|| self.common_face(ends)) else {
                 let reason = "consecutive points of a stroke have no face in common; add points between";
                 return Err(Refusal::NotPossible { operation: OPERATION, reason });
             };
@@ -144,7 +156,7 @@ impl EditMesh {
     }
 
     /// The edge along which a line runs.
-    fn edge_along(&self, [from, to]: [CutPoint; 2]) -> Option<EdgeId> {
+    pub(super) fn edge_along(&self, [from, to]: [CutPoint; 2]) -> Option<EdgeId> {
         match (from.site, to.site) {
             (Site::Vertex(a), Site::Vertex(b)) => self.find_edge(a, b),
             (Site::Edge(a), Site::Edge(b)) => (a == b).then_some(a),
@@ -211,8 +223,8 @@ impl EditMesh {
 }
 
 impl CutPlan {
-    fn add_edge_cuts(&mut self, lines: &[[CutPoint; 2]]) {
-        for point in lines.iter().flatten() {
+    fn add_edge_cuts(&mut self, lines: &[CutLine]) {
+        for point in lines.iter().flat_map(|line| line.ends) {
             if let Site::Edge(edge) = point.site {
                 let cut = EdgeCut { parameter: point.parameter, position: point.position };
                 self.edges.entry(edge).or_default().push(cut);

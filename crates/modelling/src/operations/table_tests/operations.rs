@@ -12,7 +12,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-pub(super) const OPERATIONS: [Operation; 55] = [
+pub(super) const OPERATIONS: [Operation; 57] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -128,6 +128,18 @@ pub(super) const OPERATIONS: [Operation; 55] = [
     operation("knife within faces", Promise::Shape, |mesh, on| {
         let strokes: Vec<Vec<KnifePoint>> = on.faces.iter().map(|&face| star_within(mesh, face)).collect();
         mesh.knife(&strokes).map(drop)
+    }),
+    operation("intersect faces", Promise::Shape, |mesh, on| {
+        let with = [IntersectWith::Others, IntersectWith::Themselves][on.number as usize % 2];
+        mesh.intersect_faces(&on.faces, with).map(drop)
+    }),
+    operation("project an outline", Promise::Shape, |mesh, on| {
+        let number = on.number as f64;
+        let transform = DAffine3::from_scale(DVec3::splat(0.4)) * DAffine3::from_rotation_y(number);
+        let direction = DVec3::new(0.3, 1.0, number / 20.0);
+        let cut_through = on.number.is_multiple_of(2);
+        let tool = mesh.clone();
+        mesh.knife_project(&on.faces, &tool, &KnifeProjection { transform, direction, cut_through }).map(drop)
     }),
     operation("fill edges", Promise::Nothing, |mesh, on| mesh.fill_edges(&on.edges).map(drop)),
     operation("fill vertices", Promise::Nothing, |mesh, on| mesh.fill_vertices(&on.vertices).map(drop)),

@@ -12,7 +12,7 @@ const ROUNDS: usize = 32;
 
 /// What a round found.
 #[derive(Default)]
-struct Meetings {
+struct LineMeetings {
     /// For each line the points on it.
     points: BTreeMap<[u32; 2], Vec<u32>>,
     /// Pairs of lines that cross.
@@ -31,7 +31,7 @@ impl FaceNet {
                 meetings.leaving.extend(meetings.crossings.drain(..).map(|[_, other]| other));
                 meetings.leaving.extend(std::mem::take(&mut meetings.points).into_keys());
             }
-            let Meetings { mut points, crossings, leaving } = meetings;
+            let LineMeetings { mut points, crossings, leaving } = meetings;
             self.leave_out(&leaving.iter().copied().collect::<Vec<_>>());
             let crossings: Vec<_> = crossings
                 .into_iter()
@@ -57,10 +57,10 @@ impl FaceNet {
         self.along.extend(sides.into_iter().filter(|side| self.lines.remove(side)));
     }
 
-    fn meetings(&self) -> Meetings {
+    fn meetings(&self) -> LineMeetings {
         let lines: Vec<[u32; 2]> = self.sides().chain(self.lines.iter().copied()).collect();
         let segments: Vec<[DVec2; 2]> = lines.iter().map(|&line| self.ends(line)).collect();
-        let mut meetings = Meetings::default();
+        let mut meetings = LineMeetings::default();
         for_each_near_pair(&segments, |one, other| {
             let [one, other] = [one.min(other), one.max(other)];
             // Sides of the outline are the first lines.
@@ -78,7 +78,7 @@ impl FaceNet {
     }
 
     /// How a side of the outline or a line meets a line.
-    fn add_meeting(&self, one: [u32; 2], is_side: bool, other: [u32; 2], meetings: &mut Meetings) {
+    fn add_meeting(&self, one: [u32; 2], is_side: bool, other: [u32; 2], meetings: &mut LineMeetings) {
         for point in one {
             if !other.contains(&point) && is_between(self.ends(other), self.flat[point as usize]) {
                 meetings.points.entry(other).or_default().push(point);
