@@ -60,7 +60,7 @@ impl EditMesh {
     }
 
     /// The triangles of all faces that have an area.
-    fn triangles(&self) -> Vec<FaceTriangle> {
+    pub(super) fn triangles(&self) -> Vec<FaceTriangle> {
         let mut triangulator = Triangulator::default();
         let (mut vertices, mut positions, mut cut) = (Vec::new(), Vec::new(), Vec::new());
         let mut triangles = Vec::with_capacity(2 * self.face_count());
