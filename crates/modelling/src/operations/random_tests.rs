@@ -101,6 +101,10 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             mesh.boolean(&[BooleanTool { mesh: &copy, transform }], operation).map(drop)
         }
         33 => mesh.un_subdivide(&faces).map(drop),
+        _ if bits.is_multiple_of(2) => {
+            let settings = SolidSettings { within: a.abs() * 0.2, ..Default::default() };
+            mesh.make_solid(&settings).map(drop)
+        }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }

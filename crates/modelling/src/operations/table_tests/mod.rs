@@ -79,7 +79,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-const OPERATIONS: [Operation; 49] = [
+const OPERATIONS: [Operation; 50] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -210,6 +210,11 @@ const OPERATIONS: [Operation; 49] = [
     operation("remove small faces and edges", Promise::Nothing, |mesh, _| {
         mesh.dissolve_zero_area_faces(0.3)?;
         mesh.collapse_zero_length_edges(0.7).map(drop)
+    }),
+    operation("make solid", Promise::Nothing, |mesh, on| {
+        let face = *on.faces.first().ok_or(Refusal::TooMany)?;
+        mesh.delete_only_faces(&[face])?;
+        mesh.make_solid(&SolidSettings::default()).map(drop)
     }),
     operation("split off", Promise::Nothing, |mesh, on| mesh.split_off(&on.faces).map(drop)),
     operation("unite with a moved copy", Promise::Closed, |mesh, on| {
