@@ -50,8 +50,10 @@ pub use follow::{ChangedValues, ElementNumbers};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use inspect::{
-    BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
+    BoundaryLoop, DoubledFace, DoubledVertex, FaceThickness, Inspection, InspectionSettings, NonPlanarFace,
+    OverhangSettings, PrintReport, PrintSettings, TouchingFaces,
 };
+pub use measure::{PRINT_MATERIALS, PrintMaterial};
 pub use modifier::{
     ArrayModifier, BevelModifier, BeveledEdges, BooleanModifier, BooleanOperation, DecimateGoal,
     DecimateSettings, MirrorModifier, Modifier, ScrewModifier, SolidifySettings, StackedModifier,

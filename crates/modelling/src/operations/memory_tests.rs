@@ -32,7 +32,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 32] = [
+const OPERATIONS: [(&str, Operation); 33] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -94,6 +94,7 @@ const OPERATIONS: [(&str, Operation); 32] = [
     ("convex hull", |mesh| mesh.convex_hull(&vertices(mesh), &HullSettings::default()).map(drop)),
     ("symmetrize", |mesh| mesh.symmetrize(&faces(mesh), &plane(), 0.0).map(drop)),
     ("fill", |mesh| mesh.fill_edges(&rims(mesh)).map(drop)),
+    ("make solid", |mesh| mesh.make_solid(&SolidSettings::default()).map(drop)),
     ("bridge", |mesh| mesh.bridge_edges(&rims(mesh), &BridgeSettings::default()).map(drop)),
     ("bridge with cuts", |mesh| {
         mesh.bridge_edges(&rims(mesh), &BridgeSettings { cuts: 9, ..BridgeSettings::default() }).map(drop)

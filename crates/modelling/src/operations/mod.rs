@@ -29,6 +29,7 @@ mod join;
 mod knife;
 mod lift;
 mod loop_cut;
+mod make_solid;
 #[cfg(test)]
 mod memory_tests;
 mod merge;
@@ -86,6 +87,7 @@ pub use hull::{ConvexHull, HullSettings};
 pub use inset::{Inset, InsetFaces};
 pub use knife::{IntersectWith, KnifeCut, KnifePoint, KnifeProjection, ProjectedLine, Sight};
 pub use loop_cut::{LoopCut, LoopCutSettings};
+pub use make_solid::{SolidReport, SolidSettings};
 pub use merge::MergedVertices;
 pub use mirror::Mirrored;
 pub use poke::Poked;

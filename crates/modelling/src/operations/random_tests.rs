@@ -15,7 +15,7 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
 }
 
 /// How many kinds of operations there are.
-const KINDS: u8 = 47;
+const KINDS: u8 = 48;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -156,6 +156,10 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             let transform = DAffine3::from_rotation_translation(DQuat::from_rotation_x(b), center * 0.2);
             let projection = KnifeProjection { transform, direction: center, cut_through: b > 0.0 };
             mesh.knife_project(&faces, &tool, &projection).map(drop)
+        }
+        46 => {
+            let settings = SolidSettings { within: a.abs() * 0.2, ..Default::default() };
+            mesh.make_solid(&settings).map(drop)
         }
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }

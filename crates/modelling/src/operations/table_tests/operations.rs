@@ -12,7 +12,7 @@ fn plane() -> Plane {
     Plane::from_point_and_normal(DVec3::ZERO, DVec3::X).expect("a direction")
 }
 
-pub(super) const OPERATIONS: [Operation; 57] = [
+pub(super) const OPERATIONS: [Operation; 58] = [
     operation("merge by distance", Promise::Nothing, |mesh, on| {
         mesh.merge_by_distance(&on.vertices, 1.1).map(drop)
     }),
@@ -140,6 +140,11 @@ pub(super) const OPERATIONS: [Operation; 57] = [
         let cut_through = on.number.is_multiple_of(2);
         let tool = mesh.clone();
         mesh.knife_project(&on.faces, &tool, &KnifeProjection { transform, direction, cut_through }).map(drop)
+    }),
+    operation("make solid", Promise::Nothing, |mesh, on| {
+        let face = *on.faces.first().ok_or(Refusal::TooMany)?;
+        mesh.delete_only_faces(&[face])?;
+        mesh.make_solid(&SolidSettings::default()).map(drop)
     }),
     operation("fill edges", Promise::Nothing, |mesh, on| mesh.fill_edges(&on.edges).map(drop)),
     operation("fill vertices", Promise::Nothing, |mesh, on| mesh.fill_vertices(&on.vertices).map(drop)),
