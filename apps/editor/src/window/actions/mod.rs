@@ -235,7 +235,8 @@ impl Action {
 
     /// Whether what it makes lies on what was there, so that it is moved next.
     pub(crate) fn makes_copies(&self) -> bool {
-        ["edit.duplicate", "edit.duplicate_linked", "mesh.duplicate", "mesh.extend_vertices"].contains(&self.name)
+        ["edit.duplicate", "edit.duplicate_linked", "mesh.duplicate", "mesh.extend_vertices"]
+            .contains(&self.name)
     }
 
     /// Whether it is an action of the mode that the document is in.
