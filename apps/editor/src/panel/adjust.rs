@@ -151,8 +151,17 @@ mod tests {
     #[test]
     fn every_parameter_has_a_form() {
         // Lists, and names of objects and materials, are shown and not edited.
-        let read_only =
-            ["objects", "elements", "parts", "strokes", "object", "parent", "material", "orientation"];
+        let read_only = [
+            "objects",
+            "elements",
+            "parts",
+            "strokes",
+            "from",
+            "object",
+            "parent",
+            "material",
+            "orientation",
+        ];
         for command in all_commands() {
             let value = serde_json::to_value(&command).expect("JSON");
             let schema = form::of_command(value["op"].as_str().expect("a name")).expect("it is known");

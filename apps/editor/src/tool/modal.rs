@@ -205,7 +205,12 @@ pub(crate) trait FaceTool: Tool {
         0.0
     }
 
-    /// The face that is drawn under the pointer, as the window's picks say, after each input.
+    /// Where the pointer aims, in the pixels of the view; `None` where it is.
+    fn aim(&self, _document: &Document, _view: &ToolView) -> Option<DVec2> {
+        None
+    }
+
+    /// The face that is drawn where the pointer aims, as the window's picks say, after each input.
     fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>);
 }
 

@@ -43,6 +43,8 @@ pub(crate) struct UvTool {
     modal: Modal,
     kind: UvTransform,
     pixels: UvPixels,
+    /// Whether islands follow pins that are moved.
+    live_unwrap: bool,
     lock: Option<UvAxis>,
     /// How far the pointer turned around the centre, in turns, and its last direction.
     turns: f64,
@@ -55,11 +57,12 @@ const STEPS: [[f64; 2]; 3] = [[1.0 / 16.0, 1.0 / 64.0], [5.0, 1.0], [0.1, 0.01]]
 
 impl UvTool {
     /// Starts on what is selected.
-    pub(crate) fn start(kind: UvTransform, pixels: UvPixels, hands: Hands) -> Self {
+    pub(crate) fn start(kind: UvTransform, pixels: UvPixels, live_unwrap: bool, hands: Hands) -> Self {
         let mut tool = Self {
             modal: Modal::new(hands, NumericEntry::new(Quantity::Factor, 2)),
             kind,
             pixels,
+            live_unwrap,
             lock: None,
             turns: 0.0,
             direction: 0.0,
@@ -100,6 +103,7 @@ impl UvTool {
 
     /// What the pointer or the typed numbers say.
     fn command(&mut self) -> Result<Command, String> {
+        let live_unwrap = self.live_unwrap;
         let typed = match self.modal.numeric.is_active() {
             true => Some(self.modal.numeric.values().map_err(|error| error.to_string())?),
             false => None,
@@ -110,20 +114,20 @@ impl UvTool {
                 let way = self.modal.pointer.way() / self.pixels.side;
                 let [across, up] = self.pair([value(0), value(1)], [way.x, -way.y], 0.0);
                 self.text = format!("Move UVs ({across:.4}, {up:.4})");
-                TranslateUvs { offset: [across, up], ..TranslateUvs::default() }.into()
+                TranslateUvs { offset: [across, up], live_unwrap, ..TranslateUvs::default() }.into()
             }
             UvTransform::Rotate => {
                 let dragged = self.stepped(-360.0 * self.turns);
                 let angle = value(0).map_or(dragged, |typed| typed.unwrap_or(0.0));
                 self.text = format!("Rotate UVs {angle:.2}°");
-                RotateUvs { angle, ..RotateUvs::default() }.into()
+                RotateUvs { angle, live_unwrap, ..RotateUvs::default() }.into()
             }
             UvTransform::Scale => {
                 let [now, start] = self.modal.distances(self.pixels.center);
                 let dragged = if start > 0.0 { now / start } else { 1.0 };
                 let factors = self.pair([value(0), value(1).or(value(0))], [dragged; 2], 1.0);
                 self.text = format!("Scale UVs ({:.4}, {:.4})", factors[0], factors[1]);
-                ScaleUvs { factors, ..ScaleUvs::default() }.into()
+                ScaleUvs { factors, live_unwrap, ..ScaleUvs::default() }.into()
             }
         })
     }

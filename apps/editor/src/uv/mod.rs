@@ -31,6 +31,8 @@ pub(crate) struct UvView {
     pub(crate) camera: UvCamera,
     pub(crate) backdrop: Backdrop,
     pub(crate) colors: UvColors,
+    /// Whether islands are unwrapped again while pins move and when seams are marked.
+    pub(crate) live_unwrap: bool,
     /// Where it was drawn last, while it is open.
     pub(crate) canvas: Option<UvCanvas>,
     /// Where a box that selects began.

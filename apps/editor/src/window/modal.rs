@@ -158,8 +158,8 @@ impl Editor {
                 if tool.wants_face() {
                     let reach = tool.reach() * view.scale;
                     let (document, pointing) = (&self.document, &mut self.pointing);
-                    let face =
-                        hands.pointer.and_then(|at| pointing.face_near(document, stage, &pane, at, reach));
+                    let aim = tool.aim(document, &view).or(hands.pointer);
+                    let face = aim.and_then(|at| pointing.face_near(document, stage, &pane, at, reach));
                     tool.hover(document, &view, face);
                 }
                 state

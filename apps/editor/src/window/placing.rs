@@ -8,13 +8,17 @@ use crate::request::{Orientation, Pivot, Placing};
 
 impl Editor {
     /// A command of a menu as it is meant: one that adds something puts that beside the 3D cursor as its own position is
-    /// beside the origin, and one that mirrors does so in the shown axes.
+    /// beside the origin, one that mirrors does so in the shown axes, and one that marks seams unwraps again if that is chosen.
     pub(super) fn in_space(&self, mut command: Command) -> Command {
         let position = match &mut command {
             Command::AddObject(add) => &mut add.position,
             Command::AddLight(add) => &mut add.position,
             Command::AddEmpty(add) => &mut add.position,
             Command::AddCamera(add) => &mut add.position,
+            Command::MarkSeam(mark) => {
+                mark.live_unwrap = self.uv.live_unwrap;
+                return command;
+            }
             Command::Mirror(mirror) => {
                 mirror.plane.normal = self.up().stored(mirror.plane.normal.into()).to_array();
                 return command;

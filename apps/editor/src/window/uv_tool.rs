@@ -53,7 +53,7 @@ impl Editor {
         let (scale, at) = (points(stage), canvas.point((low + high) / 2.0));
         let center = DVec2::new(at.x.into(), at.y.into()) * scale - pane.area.origin();
         let pixels = UvPixels { center, side: canvas.side * scale };
-        Some(Box::new(UvTool::start(transform, pixels, in_pane(hands, pane))))
+        Some(Box::new(UvTool::start(transform, pixels, self.uv.live_unwrap, in_pane(hands, pane))))
     }
 
     /// Whether a key over the UV view would change the mesh, which is not what is meant there; says so.

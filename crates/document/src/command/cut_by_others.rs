@@ -66,7 +66,7 @@ struct OutlineObject {
 
 impl KnifeProject {
     /// The named objects, or the selected ones that are not edited.
-    fn tools(&self, change: &mut Change<'_>) -> Result<Vec<OutlineObject>, EditError> {
+    fn tools(&self, change: &Change<'_>) -> Result<Vec<OutlineObject>, EditError> {
         let named: Vec<NodeId> = if self.objects.is_empty() {
             change.selection().objects.iter().copied().collect()
         } else {
@@ -78,7 +78,7 @@ impl KnifeProject {
             let edited = |id| change.selection().meshes().any(|(edited, _)| edited == id);
             let Some(id) = mesh.filter(|&id| !edited(id)) else { continue };
             let to_world = change.scene().world_transform(object);
-            tools.extend(change.mesh(id).cloned().map(|mesh| OutlineObject { mesh, to_world }));
+            tools.extend(change.mesh_to_read(id).map(|mesh| OutlineObject { mesh, to_world }));
         }
         if tools.is_empty() {
             let needed = "another object with a mesh, selected or named";

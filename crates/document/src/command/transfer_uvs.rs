@@ -44,7 +44,7 @@ impl Action for TransferUvs {
         let from = named_or_active(change, self.from.as_ref(), COMMAND)?;
         let nothing = EditError::NothingSelected { command: COMMAND, needed: "another object with a mesh" };
         let Some(id) = change.scene().node(from).and_then(|node| node.mesh) else { return Err(nothing) };
-        let Some(mesh) = change.mesh(id).cloned() else { return Err(nothing) };
+        let Some(mesh) = change.mesh_to_read(id) else { return Err(nothing) };
         let targets: Vec<MeshId> =
             whole_meshes(change, COMMAND)?.into_iter().filter(|&target| target != id).collect();
         if targets.is_empty() {

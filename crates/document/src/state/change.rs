@@ -93,6 +93,13 @@ impl Change<'_> {
         self.state.file.edited.get(&id)
     }
 
+    /// A copy of a mesh that is only looked at: unlike by [`Self::mesh`] nothing changes, so that undoing has nothing to
+    /// restore.
+    pub(crate) fn mesh_to_read(&self, id: MeshId) -> Option<EditMesh> {
+        let edited = self.state.file.edited.get(&id).cloned();
+        edited.or_else(|| Some(EditMesh::from_mesh(self.state.file.native.scene.meshes().get(id)?.mesh()).0))
+    }
+
     /// An edited mesh after its modifiers, as a view shows it.
     pub(crate) fn evaluate(&mut self, id: MeshId) -> Option<&Evaluation> {
         let State { file, shown, .. } = &mut *self.state;

@@ -16,12 +16,7 @@ const fn material(name: &'static str, density: f64) -> PrintMaterial {
     PrintMaterial { name, density }
 }
 
-/// The usual materials. Products differ by some percent.
-///
-/// Filaments as PrusaSlicer 2.7 and its profiles of generic filaments have them (ISO 1183 of the makers: PLA 1.24, ABS 1.04,
-/// PETG 1.27, TPU 1.21, ASA 1.07, PC 1.2 g/cm³); PA 12 as EOS states for sintered PA 2200 fully dense (1.01); standard
-/// resin cured, between 1.1 and 1.2 by maker; metals from the CRC Handbook of Chemistry and Physics (steel 7.85, aluminium
-/// 2.70, titanium 4.51, copper 8.96).
+/// The usual materials, with rounded densities as makers state them. Products differ by some percent.
 pub const PRINT_MATERIALS: [PrintMaterial; 12] = [
     material("PLA", 1240.0),
     material("PETG", 1270.0),

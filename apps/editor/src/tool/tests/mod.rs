@@ -3,6 +3,7 @@
 //! The view looks along −Z at the origin, which is drawn at (400, 300); a pixel is 1 cm wide there, x
 //! points right and y up.
 
+mod knife;
 mod modelling;
 mod moves;
 mod properties;

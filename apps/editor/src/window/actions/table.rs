@@ -62,9 +62,6 @@ actions! {
     "Edit/Boolean" "boolean.difference" "Difference" "Ctrl+Numpad-" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
     "Edit/Boolean" "boolean.intersection" "Intersection" "Ctrl+Numpad*" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
     "Edit" "edit.transfer_uvs" "Transfer UVs from Active" "" TwoObjects Run(r#"{"op":"transfer_uvs"}"#) => "Gives the other selected objects the texture coordinates of the active one.";
-    "Edit/Boolean" "boolean.union" "Union" "" TwoObjects Run(r#"{"op":"boolean","operation":"union"}"#) => "Adds the volumes of the selected objects to that of the active one.";
-    "Edit/Boolean" "boolean.difference" "Difference" "" TwoObjects Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected objects out of the active one.";
-    "Edit/Boolean" "boolean.intersection" "Intersection" "" TwoObjects Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves of the active object what is in the selected ones, too.";
     "Edit/Parent" "parent.menu" "Parent Menu" "Ctrl+P" Objects Ui(UiRequest::Popup("Edit/Parent")) => "Chooses how objects hang on the active one.";
     "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: true }) => "Hangs the selected objects on the active one; they stay where they are.";
     "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_transform: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";

@@ -56,6 +56,8 @@ fn settings(ui: &mut Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
         );
         let overlaps = ui.toggle_value(&mut view.colors.overlaps, "Overlaps");
         overlaps.on_hover_text("Marks faces that lie on others");
+        let live = ui.toggle_value(&mut view.live_unwrap, "Live Unwrap");
+        live.on_hover_text("Islands follow pins that are moved, and all faces follow seams that are marked");
         for name in ["uv.unwrap", "uv.smart", "uv.pack", "uv.follow", "uv.pin", "uv.stitch"] {
             let Some(action) = crate::window::actions::named(name) else { continue };
             let refusal = action.refusal(&editor.document);

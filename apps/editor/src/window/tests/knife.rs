@@ -62,6 +62,47 @@ fn an_edge_is_cut_in_its_middle_and_escape_leaves_every_byte() {
     });
 }
 
+/// Half of what was drawn was lost without a word.
+#[test]
+fn a_cut_closes_within_a_face_and_across_an_edge() {
+    let folder = tempfile::tempdir().expect("a folder");
+    at_the_editor(folder.path(), &[], SIZE, |user| {
+        user.play(
+            "
+            keys Tab K
+            click -0.5 -0.5 1
+            click 0.5 -0.5 1
+            click 0.5 0.5 1
+            click -0.5 0.5 1
+            click -0.5 -0.5 1           # closed
+            keys Enter
+            mesh Cube 12 18 8           # a window, and a ring of two faces
+            keys Ctrl+Z
+            mesh Cube 8 12 6
+            keys K                      # around the edge between the front and the right side
+            click 0.5 -0.5 1
+            click 1 -0.5 0.5
+            click 1 0.5 0.5
+            click 0.5 0.5 1
+            click 0.5 -0.5 1
+            keys Enter
+            mesh Cube 14 20 8           # an outline over two faces, which both lose a corner of it
+            keys Ctrl+Z
+            keys K A
+            see 30° steps of the image
+            keys A A X
+            see along X
+            click -0.5 0 1
+            click 0.5 0.3 1             # held to x
+            keys E
+            see points: 2
+            keys Escape
+            mesh Cube 8 12 6
+            ",
+        );
+    });
+}
+
 /// A click a few pixels beside the outline was refused.
 #[test]
 fn clicks_beside_the_outline_snap_to_it() {

@@ -155,6 +155,25 @@ fn islands_are_picked_and_moved_in_the_uv_view_by_the_keys_of_the_3d_view() {
     });
 }
 
+/// With all edges as seams each side of a cube is an island of its own, and none covers the image.
+#[test]
+fn seams_unwrap_again_when_that_is_live() {
+    for is_live in [false, true] {
+        let mut worked = Worked::new();
+        press(&mut worked, "Tab 2 A");
+        let before = corners(&worked);
+        worked.editor.uv.live_unwrap = is_live;
+        choose(&mut worked, "edge.mark_seam");
+        let after = corners(&worked);
+        assert_eq!(before != after, is_live, "live: {is_live}");
+        if is_live {
+            assert!(after.iter().all(|(_, uv)| uv.cmpge(Vec2::splat(0.0099)).all()), "with the margin");
+        }
+        press(&mut worked, "Ctrl+Z");
+        assert_eq!(corners(&worked), before, "one step");
+    }
+}
+
 /// `P` separates parts over the 3D view, and pins coordinates over the UV view.
 #[test]
 fn keys_over_the_uv_view_pin_and_stitch() {
