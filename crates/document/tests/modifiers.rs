@@ -279,13 +279,12 @@ fn has_command(modifier: &Modifier) -> bool {
 /// Compares what is shown now with what is made in both ways. Returns how many modifiers were shown.
 fn check(session: &mut Session, what: &str) -> usize {
     let (before, done) = (session.mesh().clone(), session.document.history().done().len());
-    session.document.scene();
+    let shown = session.shown();
     let states: Vec<ModifierState> = session.document.modifier_states(session.id).cloned().collect();
     // Commands have no limit such as that of a view.
     if states.iter().any(|state| matches!(state, ModifierState::Fewer(_) | ModifierState::TooDense(_))) {
         return 0;
     }
-    let shown = session.shown();
     session.apply_all(&states);
     assert!(session.mesh().modifiers().is_empty(), "{what}: the stack is empty");
     assert_eq!(session.mesh().check_structure(), Ok(()), "{what}");

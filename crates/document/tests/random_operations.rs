@@ -373,7 +373,8 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
             let prepare = match operation.name {
                 "recalculate_normals" => Some(("face", 2, "flip_normals")),
                 "tris_to_quads" | "dissolve_flat" => Some(("face", 2, "triangulate")),
-                "triangulate" => Some(("edge", 1, "dissolve")),
+                // Quads throughout.
+                "triangulate" => Some(("face", 1, "catmull_clark")),
                 "reveal" => Some(("face", 2, "hide")),
                 "reset_vertices" => Some(("vertex", 5, "to_sphere")),
                 "un_subdivide" => Some(("face", 1, "catmull_clark")),

@@ -31,8 +31,8 @@ impl Document {
         scene
     }
 
-    /// What a view shows of the modifiers of a mesh, in the order of its stack, as of the last [`Self::scene`]; none if it was
-    /// never edited.
+    /// What a view shows of the modifiers of a mesh, in the order of its stack, as of the last [`Self::take_scene_changes`]
+    /// or [`Self::scene_to_render`]; none if it was never edited.
     pub fn modifier_states(&self, id: MeshId) -> impl Iterator<Item = &ModifierState> {
         self.state.shown.evaluation(id).into_iter().flat_map(Evaluation::states)
     }
