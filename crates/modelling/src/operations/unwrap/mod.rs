@@ -3,6 +3,7 @@
 //! `charts` cuts the surface, `conformal` and `convex` lay a chart flat by means of `factor`, `stretch` improves a
 //! layout, `injective` tests it, `pack` arranges the rectangles of islands.
 
+mod block;
 mod charts;
 mod conformal;
 mod convex;
