@@ -1,7 +1,7 @@
 //! Unwrapping: charts of a surface are laid flat, and packed into the image as islands.
 //!
 //! `charts` cuts the surface, `conformal` and `convex` lay a chart flat by means of `factor`, `stretch` improves a
-//! layout, `injective` tests it, `pack` arranges the rectangles of islands.
+//! layout, `injective` tests it, `pack` arranges the shapes of islands (`mask`) in the image (`occupancy`).
 
 mod block;
 mod charts;
@@ -10,8 +10,12 @@ mod convex;
 mod factor;
 mod injective;
 mod islands;
+mod mask;
+mod occupancy;
 mod ordering;
 mod pack;
+#[cfg(test)]
+mod pack_tests;
 mod rectangle;
 mod smart;
 mod stretch;
