@@ -1,7 +1,8 @@
 //! Sparse systems of linear equations with a Hermitian positive definite matrix.
 //!
-//! Texture coordinates are complex numbers here, u + iv: a conformal map then is a linear condition on them, and
-//! the matrix has half as many rows as one of real numbers. They are stored as vectors, (re, im).
+//! Texture coordinates are complex numbers for conformal maps, u + iv: such a map then is a linear condition on them,
+//! and the matrix has half as many rows as one of real numbers. They are stored as vectors, (re, im). Where the
+//! equations of u and v differ, the entries are matrices of two rows: see `block`.
 //!
 //! The factor is computed row by row as in T. Davis, *Direct Methods for Sparse Linear Systems*, 2006, chapter 4.
 //! A factor is exact where iterations are slow: the least eigenvalue of a conformal energy is tiny, because many
@@ -9,6 +10,7 @@
 
 use trigon_math::DVec2;
 
+use super::block::Block;
 use super::ordering::{Graph, elimination_order};
 
 /// The product of two complex numbers.
@@ -23,10 +25,10 @@ pub(super) fn conjugate(a: DVec2) -> DVec2 {
 
 /// An entry of a matrix.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Entry {
+pub(super) struct Entry<B = DVec2> {
     pub(super) row: u32,
     pub(super) column: u32,
-    pub(super) value: DVec2,
+    pub(super) value: B,
 }
 
 /// Why a matrix has no factor.
@@ -38,65 +40,59 @@ pub(super) enum NoFactor {
     NotPositive,
 }
 
-/// A factor of a matrix: with it, systems are solved.
+/// Where a matrix and its factor have entries: matrices that differ only in values share it.
 #[derive(Debug)]
-pub(super) struct Factor {
+pub(super) struct MatrixPattern {
     /// The unknowns in the order of elimination.
     order: Vec<u32>,
-    lower: Lower,
-}
-
-/// A lower triangle by columns; the diagonal comes first in each.
-#[derive(Debug, Default)]
-struct Lower {
+    /// By given entry: its position in the upper triangle.
+    slots: Vec<EntrySlot>,
+    upper: Upper,
+    /// By column: the row of the first entry of the factor below its diagonal, the parent in the elimination tree.
+    parents: Vec<u32>,
+    /// By column: where its entries of the factor begin; one entry more.
     starts: Vec<usize>,
-    rows: Vec<u32>,
-    values: Vec<DVec2>,
 }
 
-/// An upper triangle by columns.
+/// Where an entry goes, and whether transposed.
+#[derive(Debug, Clone, Copy)]
+struct EntrySlot {
+    position: u32,
+    is_adjoint: bool,
+}
+
+/// An upper triangle by columns, without values.
+#[derive(Debug)]
 struct Upper {
     starts: Vec<usize>,
-    entries: Vec<Entry>,
+    rows: Vec<u32>,
 }
 
 impl Upper {
-    /// The triangle of a permuted matrix. Entries of one position are added up, in their order.
-    fn new(size: usize, entries: &[Entry], position: &[u32]) -> Self {
-        let permuted = |entry: &Entry| {
-            let [row, column] = [entry.row, entry.column].map(|index| position[index as usize]);
-            if row <= column {
-                Entry { row, column, value: entry.value }
-            } else {
-                Entry { row: column, column: row, value: conjugate(entry.value) }
-            }
-        };
-        let mut all: Vec<Entry> = entries.iter().map(permuted).collect();
-        all.sort_by_key(|entry| (entry.column, entry.row));
-        all.dedup_by(|next, first| {
-            let is_same = (next.row, next.column) == (first.row, first.column);
-            if is_same {
-                first.value += next.value;
-            }
-            is_same
-        });
-        let mut starts = vec![0; size + 1];
-        all.iter().for_each(|entry| starts[entry.column as usize + 1] += 1);
-        for column in 0..size {
-            starts[column + 1] += starts[column];
-        }
-        Self { starts, entries: all }
-    }
-
-    fn column(&self, column: usize) -> &[Entry] {
-        &self.entries[self.starts[column]..self.starts[column + 1]]
+    fn column(&self, column: usize) -> &[u32] {
+        &self.rows[self.starts[column]..self.starts[column + 1]]
     }
 }
 
+/// A factor of a matrix: with it, systems are solved.
+#[derive(Debug)]
+pub(super) struct Factor<B = DVec2> {
+    order: Vec<u32>,
+    lower: Lower<B>,
+}
+
+/// A lower triangle by columns; the inverse of the diagonal comes first in each.
+#[derive(Debug)]
+struct Lower<B> {
+    starts: Vec<usize>,
+    rows: Vec<u32>,
+    values: Vec<B>,
+}
+
 /// Finds in which columns a row of the factor has entries.
-struct RowPattern {
-    /// By column: the row of the first entry below its diagonal, the parent in the elimination tree.
-    parent: Vec<u32>,
+struct RowSearch<'p> {
+    upper: &'p Upper,
+    parents: &'p [u32],
     /// By column: one more than the last row that reached it.
     reached: Vec<u32>,
     /// Columns of the row, each after those that it depends on.
@@ -106,36 +102,40 @@ struct RowPattern {
 
 const NO_PARENT: u32 = u32::MAX;
 
-impl RowPattern {
-    fn new(upper: &Upper, size: usize) -> Self {
-        let mut parent = vec![NO_PARENT; size];
-        // Shortcuts to the root that is known so far.
-        let mut ancestor = vec![NO_PARENT; size];
-        for column in 0..size {
-            for entry in upper.column(column) {
-                let mut here = entry.row;
-                while here != NO_PARENT && here < column as u32 {
-                    let above = std::mem::replace(&mut ancestor[here as usize], column as u32);
-                    if above == NO_PARENT {
-                        parent[here as usize] = column as u32;
-                    }
-                    here = above;
+fn elimination_tree(upper: &Upper, size: usize) -> Vec<u32> {
+    let mut parents = vec![NO_PARENT; size];
+    // Shortcuts to the root that is known so far.
+    let mut ancestor = vec![NO_PARENT; size];
+    for column in 0..size {
+        for &row in upper.column(column) {
+            let mut here = row;
+            while here != NO_PARENT && here < column as u32 {
+                let above = std::mem::replace(&mut ancestor[here as usize], column as u32);
+                if above == NO_PARENT {
+                    parents[here as usize] = column as u32;
                 }
+                here = above;
             }
         }
-        Self { parent, reached: vec![0; size], columns: Vec::new(), path: Vec::new() }
+    }
+    parents
+}
+
+impl<'p> RowSearch<'p> {
+    fn new(upper: &'p Upper, parents: &'p [u32]) -> Self {
+        Self { upper, parents, reached: vec![0; parents.len()], columns: Vec::new(), path: Vec::new() }
     }
 
-    fn find(&mut self, upper: &Upper, row: usize) {
+    fn find(&mut self, row: usize) {
         let mark = row as u32 + 1;
         self.columns.clear();
         self.reached[row] = mark;
-        for entry in upper.column(row) {
-            let mut here = entry.row;
+        for &column in self.upper.column(row) {
+            let mut here = column;
             while self.reached[here as usize] != mark {
                 self.reached[here as usize] = mark;
                 self.path.push(here);
-                here = self.parent[here as usize];
+                here = self.parents[here as usize];
             }
             // Paths that were found later are needed earlier; each is read from its end.
             self.columns.extend(self.path.drain(..).rev());
@@ -144,22 +144,99 @@ impl RowPattern {
     }
 }
 
-impl Factor {
+impl MatrixPattern {
+    /// The pattern of a matrix with entries at these rows and columns: on and above the diagonal, or for each of them
+    /// its transposed one, but not both. Positions may occur several times. `memory` bounds the bytes that a factor
+    /// with blocks of type `B` takes.
+    pub(super) fn new<B: Block>(size: usize, positions: &[[u32; 2]], memory: u64) -> Result<Self, NoFactor> {
+        let graph = Graph::new(size, positions.iter().copied());
+        let order = elimination_order(&graph);
+        let mut index = vec![0; size];
+        for (position, &unknown) in (0..).zip(&order) {
+            index[unknown as usize] = position;
+        }
+        let (upper, slots) = upper_triangle(size, positions, &index);
+        let parents = elimination_tree(&upper, size);
+        let mut pattern = Self { order, slots, upper, parents, starts: Vec::new() };
+        pattern.starts = pattern.column_starts();
+        let bytes = pattern.entries() as u64 * (size_of::<B>() + size_of::<u32>()) as u64;
+        if bytes > memory {
+            return Err(NoFactor::Memory(bytes));
+        }
+        Ok(pattern)
+    }
+
+    /// How many entries a factor has.
+    fn entries(&self) -> usize {
+        self.starts[self.order.len()]
+    }
+
+    fn column_starts(&self) -> Vec<usize> {
+        let size = self.order.len();
+        let mut starts = vec![0; size + 1];
+        let mut search = RowSearch::new(&self.upper, &self.parents);
+        for row in 0..size {
+            search.find(row);
+            starts[row + 1] += 1;
+            search.columns.iter().for_each(|&column| starts[column as usize + 1] += 1);
+        }
+        for column in 0..size {
+            starts[column + 1] += starts[column];
+        }
+        starts
+    }
+
+    /// Factors the matrix with these values, in the order of the positions. Those of one position are added up.
+    pub(super) fn factor<B: Block>(&self, values: &[B]) -> Result<Factor<B>, NoFactor> {
+        let mut upper = vec![B::NOTHING; self.upper.rows.len()];
+        for (slot, &value) in self.slots.iter().zip(values) {
+            upper[slot.position as usize] += if slot.is_adjoint { value.adjoint() } else { value };
+        }
+        let count = self.entries();
+        let mut lower =
+            Lower { starts: self.starts.clone(), rows: vec![0; count], values: vec![B::NOTHING; count] };
+        lower.compute(self, &upper)?;
+        Ok(Factor { order: self.order.clone(), lower })
+    }
+}
+
+/// The triangle of a permuted matrix, and where each entry is in it.
+fn upper_triangle(size: usize, positions: &[[u32; 2]], index: &[u32]) -> (Upper, Vec<EntrySlot>) {
+    let permuted = |position: &[u32; 2]| position.map(|unknown| index[unknown as usize]);
+    let mut sorted: Vec<[u32; 2]> = positions
+        .iter()
+        .map(|position| {
+            let [row, column] = permuted(position);
+            [row.max(column), row.min(column)]
+        })
+        .collect();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let mut starts = vec![0; size + 1];
+    sorted.iter().for_each(|&[column, _]| starts[column as usize + 1] += 1);
+    for column in 0..size {
+        starts[column + 1] += starts[column];
+    }
+    let rows: Vec<u32> = sorted.iter().map(|&[_, row]| row).collect();
+    let slot = |position: &[u32; 2]| {
+        let [row, column] = permuted(position);
+        let (low, high) = (row.min(column), row.max(column) as usize);
+        let there = &rows[starts[high]..starts[high + 1]];
+        let offset = there.partition_point(|&other| other < low);
+        EntrySlot { position: (starts[high] + offset) as u32, is_adjoint: row > column }
+    };
+    let slots = positions.iter().map(slot).collect();
+    (Upper { starts, rows }, slots)
+}
+
+impl<B: Block> Factor<B> {
     /// Factors a matrix of which the entries on and above the diagonal are given, or for each of them its
     /// transposed conjugate, but not both. Entries of one position are added up. `memory` bounds the bytes that
     /// the factor takes.
-    pub(super) fn new(size: usize, entries: &[Entry], memory: u64) -> Result<Self, NoFactor> {
-        let graph = Graph::new(size, entries.iter().map(|entry| [entry.row, entry.column]));
-        let order = elimination_order(&graph);
-        let mut position = vec![0; size];
-        for (index, &unknown) in (0..).zip(&order) {
-            position[unknown as usize] = index;
-        }
-        let upper = Upper::new(size, entries, &position);
-        let mut pattern = RowPattern::new(&upper, size);
-        let lower = Lower::allocate(&upper, &mut pattern, memory)?;
-        let lower = lower.compute(&upper, &mut pattern)?;
-        Ok(Self { order, lower })
+    pub(super) fn new(size: usize, entries: &[Entry<B>], memory: u64) -> Result<Self, NoFactor> {
+        let positions: Vec<[u32; 2]> = entries.iter().map(|entry| [entry.row, entry.column]).collect();
+        let values: Vec<B> = entries.iter().map(|entry| entry.value).collect();
+        MatrixPattern::new::<B>(size, &positions, memory)?.factor(&values)
     }
 
     /// Solves a system: the right-hand side, by unknown.
@@ -169,19 +246,19 @@ impl Factor {
         let Lower { starts, rows, values: factors } = &self.lower;
         for column in 0..values.len() {
             let (start, end) = (starts[column], starts[column + 1]);
-            values[column] /= factors[start].x;
-            let value = values[column];
-            for entry in start + 1..end {
-                values[rows[entry] as usize] -= times(factors[entry], value);
+            let value = factors[start].apply(values[column]);
+            values[column] = value;
+            for (&row, factor) in rows[start + 1..end].iter().zip(&factors[start + 1..end]) {
+                values[row as usize] -= factor.apply(value);
             }
         }
         for column in (0..values.len()).rev() {
             let (start, end) = (starts[column], starts[column + 1]);
             let mut value = values[column];
-            for entry in start + 1..end {
-                value -= times(conjugate(factors[entry]), values[rows[entry] as usize]);
+            for (&row, factor) in rows[start + 1..end].iter().zip(&factors[start + 1..end]) {
+                value -= factor.adjoint().apply(values[row as usize]);
             }
-            values[column] = value / factors[start].x;
+            values[column] = factors[start].adjoint().apply(value);
         }
         let mut solution = vec![DVec2::ZERO; values.len()];
         for (&unknown, value) in self.order.iter().zip(values) {
@@ -191,61 +268,40 @@ impl Factor {
     }
 }
 
-impl Lower {
-    fn allocate(upper: &Upper, pattern: &mut RowPattern, memory: u64) -> Result<Self, NoFactor> {
-        let size = upper.starts.len() - 1;
-        let mut counts = vec![1usize; size];
-        let mut entries = size as u64;
-        let bytes = (size_of::<DVec2>() + size_of::<u32>()) as u64;
-        for row in 0..size {
-            pattern.find(upper, row);
-            pattern.columns.iter().for_each(|&column| counts[column as usize] += 1);
-            entries += pattern.columns.len() as u64;
-        }
-        if entries * bytes > memory {
-            return Err(NoFactor::Memory(entries * bytes));
-        }
-        pattern.reached.fill(0);
-        let mut starts = vec![0; size + 1];
-        for (column, count) in counts.into_iter().enumerate() {
-            starts[column + 1] = starts[column] + count;
-        }
-        let count = entries as usize;
-        Ok(Self { starts, rows: vec![0; count], values: vec![DVec2::ZERO; count] })
-    }
-
+impl<B: Block> Lower<B> {
     /// Row after row: each is the solution of a triangular system with the rows before.
-    fn compute(mut self, upper: &Upper, pattern: &mut RowPattern) -> Result<Self, NoFactor> {
-        let size = upper.starts.len() - 1;
+    fn compute(&mut self, pattern: &MatrixPattern, upper: &[B]) -> Result<(), NoFactor> {
+        let size = pattern.order.len();
+        let mut search = RowSearch::new(&pattern.upper, &pattern.parents);
         let mut ends = self.starts.clone();
-        let mut row_values = vec![DVec2::ZERO; size];
+        let mut row_values = vec![B::NOTHING; size];
         for row in 0..size {
-            pattern.find(upper, row);
-            upper.column(row).iter().for_each(|entry| row_values[entry.row as usize] = entry.value);
-            let whole = std::mem::take(&mut row_values[row]).x;
-            let mut diagonal = whole;
-            for &column in &pattern.columns {
-                let start = self.starts[column as usize];
-                let value = std::mem::take(&mut row_values[column as usize]) / self.values[start].x;
-                let end = ends[column as usize];
-                for entry in start + 1..end {
-                    row_values[self.rows[entry] as usize] -= times(self.values[entry], value);
-                }
-                diagonal -= value.length_squared();
-                self.rows[end] = row as u32;
-                self.values[end] = conjugate(value);
-                ends[column as usize] += 1;
+            search.find(row);
+            let start = pattern.upper.starts[row];
+            for (&column, &value) in pattern.upper.column(row).iter().zip(&upper[start..]) {
+                row_values[column as usize] = value;
             }
-            /// What is less than this part of the diagonal is rounding.
-            const LEAST_PIVOT: f64 = 1e-15;
-            if diagonal.is_nan() || diagonal <= LEAST_PIVOT * whole {
-                return Err(NoFactor::NotPositive);
+            let whole = std::mem::replace(&mut row_values[row], B::NOTHING);
+            let mut diagonal = whole;
+            for &column in &search.columns {
+                let column = column as usize;
+                let (start, end) = (self.starts[column], ends[column]);
+                let value =
+                    self.values[start].product(std::mem::replace(&mut row_values[column], B::NOTHING));
+                for (&row, factor) in self.rows[start + 1..end].iter().zip(&self.values[start + 1..end]) {
+                    row_values[row as usize] -= factor.product(value);
+                }
+                let value = value.adjoint();
+                diagonal -= value.product(value.adjoint());
+                self.rows[end] = row as u32;
+                self.values[end] = value;
+                ends[column] += 1;
             }
             self.rows[ends[row]] = row as u32;
-            self.values[ends[row]] = DVec2::new(diagonal.sqrt(), 0.0);
+            self.values[ends[row]] = diagonal.inverse_factor(whole).ok_or(NoFactor::NotPositive)?;
             ends[row] += 1;
         }
-        Ok(self)
+        Ok(())
     }
 }
 

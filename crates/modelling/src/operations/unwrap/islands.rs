@@ -4,7 +4,7 @@ use trigon_math::DVec2;
 
 use super::charts::{UvChart, charts};
 use super::injective::turned_over;
-use super::pack::pack;
+use super::pack::{IslandShape, PackTurns, pack};
 use super::rectangle::{to_origin, turn_upright};
 use crate::edit_mesh::EditMesh;
 use crate::ids::FaceId;
@@ -47,6 +47,10 @@ impl Island {
             layout.iter_mut().for_each(|point| *point *= scale);
         }
         Self { chart, layout }
+    }
+
+    fn shape(&self) -> IslandShape<'_> {
+        IslandShape { points: &self.layout, triangles: &self.chart.triangles }
     }
 }
 
@@ -118,15 +122,22 @@ impl EditMesh {
         uv_set: usize,
         settings: &PackSettings,
     ) -> Result<usize, Refusal> {
-        let turn = if settings.rotate { turn_upright } else { to_origin };
-        let sizes: Vec<DVec2> = islands.iter_mut().map(|island| turn(&mut island.layout)).collect();
-        let arrangement = pack(&sizes, settings.margin)?;
+        for island in &mut islands {
+            if settings.rotate {
+                turn_upright(&mut island.layout);
+            } else {
+                to_origin(&mut island.layout);
+            }
+        }
+        let shapes: Vec<IslandShape<'_>> = islands.iter().map(Island::shape).collect();
+        let turns = if settings.rotate { PackTurns::Quarters } else { PackTurns::None };
+        let arrangement = pack(&shapes, turns, settings.margin)?;
         self.add_uv_set(uv_set)?;
         let mut wrong = 0;
-        for (Island { chart, layout }, corner) in islands.iter_mut().zip(arrangement.corners) {
+        for (Island { chart, layout }, slot) in islands.iter_mut().zip(arrangement.slots) {
             for point in layout.iter_mut() {
                 // The sum turns −0 into 0: which of them a comparison gives differs between machines.
-                let uv = ((*point + corner) / arrangement.side).clamp(DVec2::ZERO, DVec2::ONE) + DVec2::ZERO;
+                let uv = (slot.apply(*point) / arrangement.side).clamp(DVec2::ZERO, DVec2::ONE) + DVec2::ZERO;
                 *point = DVec2::new(uv.x, 1.0 - uv.y).as_vec2().as_dvec2();
             }
             for &at in &chart.corners {

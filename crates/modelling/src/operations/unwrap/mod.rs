@@ -1,9 +1,11 @@
 //! Unwrapping: charts of a surface are laid flat, and packed into the image as islands.
 //!
 //! `charts` cuts the surface, `conformal` and `convex` lay a chart flat by means of `factor`, `stretch` improves a
-//! layout, `injective` tests it, `pinned` lays charts around given coordinates, `pack` arranges the rectangles of islands.
+//! layout, `injective` tests it, `pinned` lays charts around given coordinates, `pack` arranges the shapes of islands
+//! (`mask`) in the image (`occupancy`).
 
 mod average_scale;
+mod block;
 mod charts;
 mod conformal;
 mod convex;
@@ -11,8 +13,12 @@ mod factor;
 mod injective;
 mod islands;
 mod live;
+mod mask;
+mod occupancy;
 mod ordering;
 mod pack;
+#[cfg(test)]
+mod pack_tests;
 mod pinned;
 #[cfg(test)]
 mod pinned_tests;

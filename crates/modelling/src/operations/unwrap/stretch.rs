@@ -1,45 +1,59 @@
 //! Less stretch: a layout is changed so that each triangle comes closer to its own shape and size.
 //!
-//! The steps are those of L. Liu, L. Zhang, Y. Xu, C. Gotsman and S. Gortler, *A Local/Global Approach to Mesh
-//! Parameterization*, 2008, section 4.2 ("as rigid as possible"): each triangle is turned to fit its layout, then one
-//! system of equations joins them. They go only as far as no triangle is turned over: the bound is that of J. Smith
-//! and S. Schaefer, *Bijective Parameterization with Free Boundaries*, 2015, section 3.3. A step that would let the
-//! border cross itself, or increase the energy, is halved.
+//! The energy is the symmetric Dirichlet energy of J. Smith and S. Schaefer, *Bijective Parameterization with Free
+//! Boundaries*, 2015, section 3.1: the sum of the squared singular values of the map and of its inverse. It is least
+//! for an isometry, and infinite where a triangle has no area. Each step solves one system of equations. Far from the
+//! least energy its matrix is that of M. Rabinovich, R. Poranne, D. Panozzo and O. Sorkine-Hornung, *Scalable Locally
+//! Injective Mappings*, 2017, section 3, near it the Hessian without its negative part, whose eigensystem is that of
+//! B. Smith, F. de Goes and T. Kim, *Analytic Eigensystems for Isotropic Distortion Energies*, 2019. A step goes only
+//! as far as no triangle is turned over (Smith and Schaefer, section 3.3). One that would let the border cross
+//! itself, or not decrease the energy, is halved.
 
-use trigon_math::DVec2;
+use trigon_math::{DMat2, DVec2};
 
 use super::charts::{FlatTriangle, UvChart};
-use super::factor::{Entry, Factor, NoFactor, conjugate, times};
+use super::factor::{MatrixPattern, NoFactor, conjugate, times};
 use super::injective::{is_injective, turned_over};
 
 /// Steps that gain less than this part of the energy end the iteration.
-const LEAST_GAIN: f64 = 1e-6;
+const LEAST_GAIN: f64 = 1e-4;
 /// How far towards the first triangle without area a step goes at most.
-const SAFETY: f64 = 0.8;
+const SAFETY: f64 = 0.9;
 const HALVINGS: usize = 12;
+/// Above this mean energy, of which the least is 4, a layout is far from an isometry: there the Hessian leads to small
+/// steps, but as soon as a step gains less than the other part of the energy, it is used.
+const FAR_ENERGY: f64 = 6.0;
+const FAR_GAIN: f64 = 0.05;
 
-/// Changes a layout in at most `iterations` steps. It is scaled to the area of the chart first. If triangles are
-/// turned over to begin with, nothing else happens.
+/// Changes a layout in at most `iterations` steps, if no triangle is turned over to begin with. Held vertices of the
+/// chart stay where they are; without any, the layout is first scaled so that its energy is least.
 pub(super) fn minimize_stretch(
     chart: &UvChart,
     layout: &mut Vec<DVec2>,
     iterations: u32,
     memory: u64,
 ) -> Result<(), NoFactor> {
-    let triangles: Vec<WeightedTriangle> = chart.flat_triangles().iter().map(WeightedTriangle::new).collect();
-    scale_to_area(&triangles, layout);
     if iterations == 0 || turned_over(chart, layout) > 0 {
         return Ok(());
     }
-    let global = Global::new(chart, &triangles, memory)?;
-    let mut rotations = vec![DVec2::X; triangles.len()];
-    let mut energy = fit(&triangles, layout, &mut rotations);
+    let triangles: Vec<StretchTriangle> = chart.flat_triangles().iter().map(StretchTriangle::new).collect();
+    if chart.held.is_empty() {
+        scale_to_least(&triangles, layout);
+    }
+    let system = System::new(chart, &triangles, memory)?;
+    let (mut energy, mut gain) = (energy_of(&triangles, layout), f64::INFINITY);
     for _ in 0..iterations {
-        let wanted = global.solve(&triangles, &rotations, layout);
-        let Some(step) = step(chart, &triangles, layout, &wanted, energy) else { break };
-        let gain = energy - step.energy;
+        let is_far = energy > FAR_ENERGY && gain > FAR_GAIN * energy;
+        let model = if is_far { Model::Far } else { Model::Near };
+        let offsets = match system.offsets(&triangles, layout, model) {
+            // Triangles are so flat in the layout that their equations drown all others.
+            Err(NoFactor::NotPositive) => break,
+            offsets => offsets?,
+        };
+        let Some(step) = step(chart, &triangles, layout, &offsets, energy) else { break };
+        gain = energy - step.energy;
         *layout = step.layout;
-        energy = fit(&triangles, layout, &mut rotations);
+        energy = step.energy;
         if gain <= LEAST_GAIN * energy {
             break;
         }
@@ -47,163 +61,250 @@ pub(super) fn minimize_stretch(
     Ok(())
 }
 
-/// A triangle with half the cotangents of the angles opposite to its sides.
-struct WeightedTriangle {
-    flat: FlatTriangle,
-    /// By corner, for the side opposite to it.
-    weights: [f64; 3],
+/// A triangle and its map into the layout: a z + b conj(z) of complex numbers, but for a translation.
+struct StretchTriangle {
+    vertices: [u32; 3],
+    /// By corner: the derivative of a by its position in the layout, that of b is the conjugate.
+    gradients: [DVec2; 3],
+    area: f64,
 }
 
-/// One side of a triangle.
-struct TriangleSide {
-    ends: [u32; 2],
-    /// On the surface.
-    shape: DVec2,
-    weight: f64,
+/// The two parts of a map: that which preserves angles, and that which turns them round.
+#[derive(Clone, Copy)]
+struct MapParts {
+    similar: DVec2,
+    mirrored: DVec2,
 }
 
-impl WeightedTriangle {
+impl StretchTriangle {
     fn new(flat: &FlatTriangle) -> Self {
-        let weight = |corner: usize| {
-            let here = flat.points[corner];
-            let [a, b] = [1, 2].map(|next| flat.points[(corner + next) % 3] - here);
-            a.dot(b) / (2.0 * flat.double_area())
+        let gradient = |corner: usize| {
+            let opposite = flat.points[(corner + 2) % 3] - flat.points[(corner + 1) % 3];
+            conjugate(opposite.perp()) / (2.0 * flat.double_area())
         };
-        Self { flat: *flat, weights: [0, 1, 2].map(weight) }
+        Self { vertices: flat.vertices, gradients: [0, 1, 2].map(gradient), area: flat.double_area() / 2.0 }
     }
 
-    fn sides(&self) -> [TriangleSide; 3] {
-        [0, 1, 2].map(|corner| {
-            let [from, to] = [(corner + 1) % 3, (corner + 2) % 3];
-            TriangleSide {
-                ends: [self.flat.vertices[from], self.flat.vertices[to]],
-                shape: self.flat.points[to] - self.flat.points[from],
-                weight: self.weights[corner],
-            }
-        })
-    }
-
-    /// The corners in a layout.
     fn in_layout(&self, layout: &[DVec2]) -> [DVec2; 3] {
-        self.flat.vertices.map(|vertex| layout[vertex as usize])
+        self.vertices.map(|vertex| layout[vertex as usize])
+    }
+
+    fn parts(&self, layout: &[DVec2]) -> MapParts {
+        let mut parts = MapParts { similar: DVec2::ZERO, mirrored: DVec2::ZERO };
+        for (point, &gradient) in self.in_layout(layout).into_iter().zip(&self.gradients) {
+            parts.similar += times(gradient, point);
+            parts.mirrored += times(conjugate(gradient), point);
+        }
+        parts
     }
 }
 
-/// Scales a layout to the area of the surface.
-fn scale_to_area(triangles: &[WeightedTriangle], layout: &mut [DVec2]) {
-    let (mut surface, mut flat) = (0.0, 0.0);
-    for triangle in triangles {
-        let [a, b, c] = triangle.in_layout(layout);
-        surface += triangle.flat.double_area();
-        flat += (b - a).perp_dot(c - a);
+impl MapParts {
+    /// The sums of the squared singular values of the map and of its inverse; infinite if it turns over.
+    fn energies(self) -> [f64; 2] {
+        let [similar, mirrored] = [self.similar.length_squared(), self.mirrored.length_squared()];
+        let determinant = similar - mirrored;
+        let sum = 2.0 * (similar + mirrored);
+        if determinant > 0.0 { [sum, sum / (determinant * determinant)] } else { [sum, f64::INFINITY] }
     }
-    let scale = (surface / flat.abs()).sqrt();
+}
+
+/// The mean energy over the surface: at least 4.
+fn energy_of(triangles: &[StretchTriangle], layout: &[DVec2]) -> f64 {
+    let (mut sum, mut area) = (0.0, 0.0);
+    for triangle in triangles {
+        let [forward, backward] = triangle.parts(layout).energies();
+        sum += triangle.area * (forward + backward);
+        area += triangle.area;
+    }
+    sum / area
+}
+
+/// Scales a layout so that its energy is least.
+fn scale_to_least(triangles: &[StretchTriangle], layout: &mut [DVec2]) {
+    let mut sums = DVec2::ZERO;
+    for triangle in triangles {
+        sums += triangle.area * DVec2::from_array(triangle.parts(layout).energies());
+    }
+    let scale = (sums.y / sums.x).sqrt().sqrt();
     if scale.is_finite() && scale > 0.0 {
         layout.iter_mut().for_each(|point| *point *= scale);
     }
 }
 
-/// The rotation that turns each triangle into its layout best, as a complex number. Returns the energy that is left:
-/// the integral over the surface of the squared deviation from a rotation.
-fn fit(triangles: &[WeightedTriangle], layout: &[DVec2], rotations: &mut [DVec2]) -> f64 {
-    let mut energy = 0.0;
-    for (triangle, rotation) in triangles.iter().zip(rotations) {
-        let sides = triangle.sides();
-        let laid = |side: &TriangleSide| layout[side.ends[1] as usize] - layout[side.ends[0] as usize];
-        let sum: DVec2 =
-            sides.iter().map(|side| times(laid(side), conjugate(side.shape)) * side.weight).sum();
-        *rotation = sum.normalize_or(DVec2::X);
-        for side in &sides {
-            energy += side.weight * (laid(side) - times(*rotation, side.shape)).length_squared();
+/// By which matrix the energy is replaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Model {
+    /// One that leads to an isometry at once, if triangles were independent.
+    Far,
+    /// The Hessian.
+    Near,
+}
+
+/// First derivatives of a triangle's energy, and those second ones that are used.
+struct Derivatives {
+    /// The directions of both parts.
+    directions: [DVec2; 2],
+    /// By part, along its direction.
+    gradient: DVec2,
+    /// Symmetric: along the directions.
+    along: DMat2,
+    /// Symmetric: across them.
+    across: DMat2,
+}
+
+impl Derivatives {
+    fn new(parts: MapParts, model: Model) -> Self {
+        let [similar, mirrored] = [parts.similar.length(), parts.mirrored.length()];
+        // The singular values.
+        let [large, small] = [similar + mirrored, similar - mirrored];
+        let slope = |value: f64| 2.0 * (value - 1.0 / (value * value * value));
+        let gradient = DVec2::new(slope(large) + slope(small), slope(large) - slope(small));
+        let curvature = |value: f64| match model {
+            Model::Far => 2.0 * (value + 1.0) * (value * value + 1.0) / (value * value * value),
+            Model::Near => 2.0 + 6.0 / (value * value * value * value),
+        };
+        let sum = curvature(large) + curvature(small);
+        let difference = curvature(large) - curvature(small);
+        let symmetric =
+            |x: f64, mixed: f64, y: f64| DMat2::from_cols(DVec2::new(x, mixed), DVec2::new(mixed, y));
+        let across = match model {
+            Model::Far => symmetric(sum, -difference, sum),
+            Model::Near => {
+                let product = small * large;
+                let cube = product * product * product;
+                let turning = gradient.x / similar;
+                let mirroring = 4.0 * (1.0 + (small * small + small * large + large * large) / cube);
+                symmetric(turning.max(LEAST_TURNING), 0.0, mirroring)
+            }
+        };
+        let direction = |part: DVec2| part.normalize_or(DVec2::X);
+        Self {
+            directions: [direction(parts.similar), direction(parts.mirrored)],
+            gradient,
+            along: symmetric(sum, difference, sum),
+            across,
         }
     }
-    energy
+
+    /// For a corner with this gradient.
+    fn rows(&self, gradient: DVec2) -> CornerRows {
+        let [similar, mirrored] = self.directions.map(conjugate);
+        let (similar, mirrored) = (times(similar, gradient), times(mirrored, conjugate(gradient)));
+        CornerRows {
+            along: DMat2::from_cols(DVec2::new(similar.x, mirrored.x), DVec2::new(-similar.y, -mirrored.y)),
+            across: DMat2::from_cols(DVec2::new(similar.y, mirrored.y), DVec2::new(similar.x, mirrored.x)),
+        }
+    }
 }
 
-/// The system of equations that joins all triangles. The held vertices stay where they are, or else the first.
-struct Global {
-    factor: Factor,
-    /// By vertex: the number of its unknown, `None` where it is held.
-    unknowns: Vec<Option<u32>>,
+/// By which linear maps the offset of a corner changes both parts, along their directions and across.
+struct CornerRows {
+    along: DMat2,
+    across: DMat2,
 }
 
-impl Global {
-    fn new(chart: &UvChart, triangles: &[WeightedTriangle], memory: u64) -> Result<Self, NoFactor> {
+/// The least curvature of a rotation: that of an isometry has none.
+const LEAST_TURNING: f64 = 1e-3;
+
+/// The vertices that a step may move: all that are not held, or all but the first if none is.
+struct Unknowns {
+    /// By vertex: the number of its unknown, `None` where it stays.
+    by_vertex: Vec<Option<u32>>,
+    count: usize,
+}
+
+/// The pairs of corners on and above the diagonal.
+const PAIRS: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
+
+impl Unknowns {
+    fn new(chart: &UvChart) -> Self {
         let held = if chart.held.is_empty() { &[0][..] } else { &chart.held };
-        let mut free = 0;
+        let mut count = 0;
         let unknown = |vertex| {
             let is_free = held.binary_search(&vertex).is_err();
-            free += u32::from(is_free);
-            is_free.then(|| free - 1)
+            count += u32::from(is_free);
+            is_free.then(|| count - 1)
         };
-        let unknowns: Vec<Option<u32>> = (0..chart.points.len() as u32).map(unknown).collect();
-        let mut entries = Vec::new();
-        for TriangleSide { ends, weight, .. } in triangles.iter().flat_map(WeightedTriangle::sides) {
-            let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])].map(|end| unknowns[end as usize]);
-            let value = DVec2::new(weight, 0.0);
-            entries.extend(high.map(|high| Entry { row: high, column: high, value }));
-            entries.extend(low.map(|low| Entry { row: low, column: low, value }));
-            entries.extend(low.zip(high).map(|(row, column)| Entry { row, column, value: -value }));
-        }
-        Ok(Self { factor: Factor::new(free as usize, &entries, memory)?, unknowns })
+        let by_vertex = (0..chart.points.len() as u32).map(unknown).collect();
+        Self { by_vertex, count: count as usize }
     }
 
-    /// Where all vertices would be, if held ones are where they are in a layout.
-    fn solve(&self, triangles: &[WeightedTriangle], rotations: &[DVec2], layout: &[DVec2]) -> Vec<DVec2> {
-        let is_free = |vertex: u32| self.unknowns[vertex as usize].is_some();
-        let first = self.unknowns.iter().position(Option::is_none).expect("one is held");
-        // Relative to the first that is held.
-        let origin = layout[first];
-        let mut sums = vec![DVec2::ZERO; self.unknowns.len()];
-        for (triangle, &rotation) in triangles.iter().zip(rotations) {
-            for TriangleSide { ends: [from, to], shape, weight } in triangle.sides() {
-                let wanted = times(rotation, shape) * weight;
-                sums[from as usize] -= wanted;
-                sums[to as usize] += wanted;
-                for [free, held] in [[from, to], [to, from]] {
-                    if is_free(free) && !is_free(held) && held as usize != first {
-                        sums[free as usize] += (layout[held as usize] - origin) * weight;
-                    }
-                }
+    /// The row and the column of two corners of a triangle, if both may move.
+    fn entry(&self, triangle: &StretchTriangle, corners: [usize; 2]) -> Option<[u32; 2]> {
+        let [row, column] = corners.map(|corner| self.by_vertex[triangle.vertices[corner] as usize]);
+        row.zip(column).map(|(row, column)| [row, column])
+    }
+
+    fn entries<'s>(&'s self, triangle: &'s StretchTriangle) -> impl Iterator<Item = [u32; 2]> + 's {
+        PAIRS.into_iter().filter_map(|pair| self.entry(triangle, pair))
+    }
+}
+
+/// The equations of a step.
+struct System {
+    pattern: MatrixPattern,
+    unknowns: Unknowns,
+}
+
+impl System {
+    fn new(chart: &UvChart, triangles: &[StretchTriangle], memory: u64) -> Result<Self, NoFactor> {
+        let unknowns = Unknowns::new(chart);
+        let positions: Vec<[u32; 2]> =
+            triangles.iter().flat_map(|triangle| unknowns.entries(triangle)).collect();
+        Ok(Self { pattern: MatrixPattern::new::<DMat2>(unknowns.count, &positions, memory)?, unknowns })
+    }
+
+    /// Where the vertices should go from their layout: zero for those that stay.
+    fn offsets(
+        &self,
+        triangles: &[StretchTriangle],
+        layout: &[DVec2],
+        model: Model,
+    ) -> Result<Vec<DVec2>, NoFactor> {
+        let Unknowns { by_vertex, count } = &self.unknowns;
+        let mut wanted = vec![DVec2::ZERO; *count];
+        let mut values = Vec::with_capacity(PAIRS.len() * triangles.len());
+        for triangle in triangles {
+            let derivatives = Derivatives::new(triangle.parts(layout), model);
+            let rows = triangle.gradients.map(|gradient| derivatives.rows(gradient));
+            for (&vertex, rows) in triangle.vertices.iter().zip(&rows) {
+                let Some(unknown) = by_vertex[vertex as usize] else { continue };
+                wanted[unknown as usize] -= rows.along.transpose() * derivatives.gradient * triangle.area;
+            }
+            for [i, j] in PAIRS.into_iter().filter(|&pair| self.unknowns.entry(triangle, pair).is_some()) {
+                let value = rows[i].along.transpose() * derivatives.along * rows[j].along
+                    + rows[i].across.transpose() * derivatives.across * rows[j].across;
+                values.push(value * triangle.area);
             }
         }
-        let right_hand_side: Vec<DVec2> = sums
-            .iter()
-            .zip(&self.unknowns)
-            .filter(|(_, unknown)| unknown.is_some())
-            .map(|(sum, _)| *sum)
-            .collect();
-        let relative = self.factor.solve(&right_hand_side);
-        let point = |(unknown, at): (&Option<u32>, &DVec2)| {
-            unknown.map_or(*at, |unknown| origin + relative[unknown as usize])
-        };
-        self.unknowns.iter().zip(layout).map(point).collect()
+        let solution = self.pattern.factor(&values)?.solve(&wanted);
+        let offset = |unknown: &Option<u32>| unknown.map_or(DVec2::ZERO, |at| solution[at as usize]);
+        Ok(by_vertex.iter().map(offset).collect())
     }
 }
 
 /// A layout that is better than the last.
-struct Step {
+struct StretchStep {
     layout: Vec<DVec2>,
     energy: f64,
 }
 
-/// Goes towards a layout as far as possible; `None` if nothing is gained.
+/// Goes along offsets as far as possible; `None` if nothing is gained.
 fn step(
     chart: &UvChart,
-    triangles: &[WeightedTriangle],
+    triangles: &[StretchTriangle],
     layout: &[DVec2],
-    wanted: &[DVec2],
+    offsets: &[DVec2],
     energy: f64,
-) -> Option<Step> {
-    let offsets: Vec<DVec2> = wanted.iter().zip(layout).map(|(wanted, point)| *wanted - *point).collect();
-    let mut length = longest_step(triangles, layout, &offsets);
-    let mut rotations = vec![DVec2::X; triangles.len()];
+) -> Option<StretchStep> {
+    let mut length = longest_step(triangles, layout, offsets);
     for _ in 0..HALVINGS {
         let next: Vec<DVec2> =
-            layout.iter().zip(&offsets).map(|(point, offset)| *point + *offset * length).collect();
-        let next_energy = fit(triangles, &next, &mut rotations);
+            layout.iter().zip(offsets).map(|(point, offset)| *point + *offset * length).collect();
+        let next_energy = energy_of(triangles, &next);
         if next_energy < energy && is_injective(chart, &next) {
-            return Some(Step { layout: next, energy: next_energy });
+            return Some(StretchStep { layout: next, energy: next_energy });
         }
         length /= 2.0;
     }
@@ -211,8 +312,8 @@ fn step(
 }
 
 /// How far all triangles keep an area: at most 1, the whole step.
-fn longest_step(triangles: &[WeightedTriangle], layout: &[DVec2], offsets: &[DVec2]) -> f64 {
-    let mut longest = 1.0 / SAFETY;
+fn longest_step(triangles: &[StretchTriangle], layout: &[DVec2], offsets: &[DVec2]) -> f64 {
+    let mut longest: f64 = 1.0 / SAFETY;
     for triangle in triangles {
         let [a, b, c] = triangle.in_layout(layout);
         let [from_a, from_b, from_c] = triangle.in_layout(offsets);

@@ -266,7 +266,7 @@ fn steps_make_the_stretch_of_a_dome_smaller() {
         DVec3::new(flat.x, flat.y, 1.5 * (1.0 - flat.x * flat.x) * (1.0 - flat.y * flat.y))
     });
     let mut last = f64::INFINITY;
-    for minimize_stretch in [0, 1, 5, 40] {
+    for minimize_stretch in [0, 1, 5] {
         let settings = UnwrapSettings { minimize_stretch, ..UnwrapSettings::default() };
         let (mesh, unwrapped) = unwrapped(&dome, |_, _| false, &settings);
         assert_eq!((unwrapped.not_conformal, unwrapped.turned_over), (0, 0), "after {minimize_stretch}");
