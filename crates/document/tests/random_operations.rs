@@ -234,6 +234,7 @@ fn operations() -> Vec<Operation> {
         }),
         operation("stitch_uvs", Some("edge", 5), |r, _| json!({ "at_midpoints": r.below(2) == 0 })),
         operation("pack_islands", Some("face", 5), |r, _| json!({ "rotate": r.below(2) == 0 })),
+        operation("make_solid", Some("face", 1), |_, _| json!({ "within": 0.3, "zero_area": 0.05 })),
         operation("repair", Some("face", 1), |_, _| json!({ "zero_length": 0.3, "zero_area": 0.05 })),
         operation(
             "delete",
@@ -371,7 +372,7 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
             };
             // So that there is something to do.
             let prepare = match operation.name {
-                "recalculate_normals" => Some(("face", 2, "flip_normals")),
+                "recalculate_normals" | "make_solid" => Some(("face", 2, "flip_normals")),
                 "tris_to_quads" | "dissolve_flat" => Some(("face", 2, "triangulate")),
                 // Quads throughout.
                 "triangulate" => Some(("face", 1, "catmull_clark")),

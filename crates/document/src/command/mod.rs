@@ -23,6 +23,7 @@ mod move_uvs;
 mod parts;
 mod paste;
 mod poke;
+mod print;
 mod project_around;
 mod reference;
 mod scene;
@@ -69,6 +70,7 @@ pub use move_uvs::{FollowActiveQuad, RotateUvs, ScaleUvs, TranslateUvs, selected
 pub use parts::{Duplicate, ExtendVertices, JoinObjects, Rip, SplitOff};
 pub use paste::{Glb, Paste};
 pub use poke::{ConvexHull, Poke};
+pub use print::{MakeSolid, SelectOverhangs, SelectThin};
 pub use project_around::{ProjectUvsCylinder, ProjectUvsSphere};
 pub use reference::{command_reference, command_schema};
 pub use scene::{
@@ -188,6 +190,10 @@ commands! {
     SelectNonManifold("Select Non-Manifold", true),
     /// Selects elements by what they are.
     SelectByTrait("Select by Trait", true),
+    /// Selects faces behind which the body is thin.
+    SelectThin("Select Thin Walls", true),
+    /// Selects faces that would be printed in the air.
+    SelectOverhangs("Select Overhangs", true),
     /// Selects sharp edges.
     SelectSharp("Select Sharp Edges", true),
     /// Selects faces by direction.
@@ -366,6 +372,8 @@ commands! {
     AverageIslandScale("Average Island Scale", false),
     /// Repairs faults found by inspection.
     Repair("Repair", false),
+    /// Closes meshes for printing.
+    MakeSolid("Make Solid", false),
     /// Adds the contents of a file.
     ImportFile("Import", false),
     /// Adds a standard object.
