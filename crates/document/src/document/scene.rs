@@ -34,7 +34,9 @@ impl Document {
     /// What a view shows of the modifiers of a mesh, in the order of its stack, as of the last [`Self::take_scene_changes`]
     /// or [`Self::scene_to_render`]; none if it was never edited.
     pub fn modifier_states(&self, id: MeshId) -> impl Iterator<Item = &ModifierState> {
-        self.state.shown.evaluation(id).into_iter().flat_map(Evaluation::states)
+        // A stack that became empty is not evaluated again.
+        let count = self.mesh(id).map_or(0, |mesh| mesh.modifiers().len());
+        self.state.shown.evaluation(id).into_iter().flat_map(Evaluation::states).take(count)
     }
 
     /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this
