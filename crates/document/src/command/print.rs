@@ -156,19 +156,10 @@ fn reported(reports: &[SolidReport]) -> Outcome {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::{Value, json};
+    use serde_json::json;
     use trigon_mesh::primitives;
 
-    use crate::document::Document;
-    use crate::tests::commands::{edited, editing_faces, run};
-
-    /// How many faces are selected.
-    fn chosen(document: &mut Document, command: Value) -> usize {
-        run(document, command);
-        let kind = document.selection().kind();
-        let (_, selection) = document.selection().meshes().next().expect("one is edited");
-        selection.faces(edited(document), kind).len()
-    }
+    use crate::tests::commands::{chosen, edited, editing_faces, run};
 
     #[test]
     fn thin_walls_and_overhangs_are_selected() {

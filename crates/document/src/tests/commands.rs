@@ -41,3 +41,11 @@ pub(crate) fn edited(document: &Document) -> &trigon_modelling::EditMesh {
     let (id, _) = document.selection().meshes().next().expect("one is edited");
     document.mesh(id).expect("it is there")
 }
+
+/// Runs a command. Returns how many faces of the first edited mesh are selected.
+pub(crate) fn chosen(document: &mut Document, command: Value) -> usize {
+    run(document, command);
+    let kind = document.selection().kind();
+    let (_, selection) = document.selection().meshes().next().expect("one is edited");
+    selection.faces(edited(document), kind).len()
+}
