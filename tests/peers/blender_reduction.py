@@ -97,7 +97,7 @@ def distances(original, reduced):
     meshes = pymeshlab.MeshSet()
     for points, faces in (original, reduced):
         meshes.add_mesh(pymeshlab.Mesh(points.astype(float), faces.astype(numpy.int32)))
-    found = meshes.get_hausdorff_distance(sampledmesh=1, targetmesh=0, samplenum=SAMPLES)
+    found = meshes.get_hausdorff_distance(sampledmesh=1, targetmesh=0, samplenum=SAMPLES, samplevert=False, sampleface=True)
     diagonal = found["diag_mesh_0"]
     return found["mean"] / diagonal, found["max"] / diagonal
 
