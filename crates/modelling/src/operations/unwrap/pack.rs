@@ -95,11 +95,14 @@ const MOST_SIDES: usize = 3;
 const DOUBLINGS: u32 = 40;
 
 /// Into how many cells the least side is divided that islands could have room in: enough for the space that is lost
-/// around a few islands to be a few hundredths, and for most of many islands to be larger than a cell.
+/// around a few islands to be a few hundredths, and for most of many islands to be larger than a cell. The time that
+/// packing takes grows with their square.
 fn cells_across(islands: usize) -> usize {
-    const LEAST: usize = 320;
+    const LEAST: usize = 160;
+    const ENOUGH_FOR_FEW: usize = 320;
     const MOST: usize = 2048;
-    (8 * islands.isqrt()).clamp(LEAST, MOST)
+    let rows = islands.isqrt();
+    (64 * rows).min(ENOUGH_FOR_FEW).max(8 * rows).clamp(LEAST, MOST)
 }
 
 /// Whether so many points can be apart in a square, but for the shape of it: N. Oler, *An Inequality in the Geometry of
@@ -130,10 +133,10 @@ fn least_side(shapes: &[IslandShape<'_>]) -> f64 {
 /// The cells of all islands.
 struct MaskGrid {
     cell: f64,
-    /// By island, and by how many quarters it is turned.
+    /// By island, and by how many quarters it is turned, until it looks as in the beginning.
     masks: Vec<Vec<Mask>>,
-    /// The islands in several orders, with the largest first by one measure or another.
-    orders: [Vec<usize>; 3],
+    /// The islands in different orders, with the largest first by one measure or another.
+    orders: Vec<Vec<usize>>,
 }
 
 /// A square in which all islands have room.
@@ -151,7 +154,10 @@ impl MaskGrid {
         };
         let masks_of = |shape: &IslandShape<'_>| -> Vec<Mask> {
             let first = Mask::new(shape.points, shape.triangles, cell);
-            std::iter::successors(Some(first), |mask| Some(mask.turned())).take(turns).collect()
+            let turned =
+                std::iter::successors(Some(first.turned()), |mask| Some(mask.turned())).take(turns - 1);
+            let others: Vec<Mask> = turned.take_while(|mask| *mask != first).collect();
+            std::iter::once(first).chain(others).collect()
         };
         let masks: Vec<Vec<Mask>> = shapes.iter().map(masks_of).collect();
         let order_by = |size: fn(&Mask) -> usize| {
@@ -159,11 +165,12 @@ impl MaskGrid {
             order.sort_by_key(|&index| (Reverse(size(&masks[index][0])), index));
             order
         };
-        let orders = [
+        let mut orders = vec![
             order_by(Mask::count),
             order_by(|mask| mask.width.max(mask.height)),
             order_by(|mask| mask.width + mask.height),
         ];
+        orders.dedup();
         Self { cell, masks, orders }
     }
 

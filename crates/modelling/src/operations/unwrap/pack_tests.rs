@@ -182,6 +182,11 @@ proptest! {
         let arrangement = check(&islands, turns, margin)?;
         prop_assert_eq!(&packed(&islands, turns, margin).expect("as before"), &arrangement);
     }
+}
+
+proptest! {
+    // Each case is a few dozen rectangles.
+    #![proptest_config(ProptestConfig::with_cases(4))]
 
     /// Rectangles of similar sizes leave little.
     #[test]
