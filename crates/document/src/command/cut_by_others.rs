@@ -78,7 +78,10 @@ impl KnifeProject {
             let edited = |id| change.selection().meshes().any(|(edited, _)| edited == id);
             let Some(id) = mesh.filter(|&id| !edited(id)) else { continue };
             let to_world = change.scene().world_transform(object);
-            tools.extend(change.mesh(id).cloned().map(|mesh| OutlineObject { mesh, to_world }));
+            // Only read: a mesh that was never edited stays so in the saved file.
+            let edited = change.selection_and_meshes().1.get(&id).cloned();
+            let stored = || change.scene().meshes().get(id).map(|asset| EditMesh::from_mesh(asset.mesh()).0);
+            tools.extend(edited.or_else(stored).map(|mesh| OutlineObject { mesh, to_world }));
         }
         if tools.is_empty() {
             let needed = "another object with a mesh, selected or named";
