@@ -37,6 +37,11 @@ impl ExportChoices {
         }
     }
 
+    /// The same for a file of a format: one that states its unit holds true sizes.
+    pub(crate) fn for_format(self, format: Format) -> Self {
+        if states_unit(format) { Self { scale: 1.0, ..self } } else { self }
+    }
+
     pub(crate) fn options(&self, document: &Document) -> ExportOptions<'static> {
         let selected = || document.selection().objects.iter().copied().collect();
         ExportOptions {
@@ -49,6 +54,11 @@ impl ExportChoices {
             ..ExportOptions::default()
         }
     }
+}
+
+/// Whether files of a format say what unit their numbers have, and the writer sees to it.
+pub(crate) fn states_unit(format: Format) -> bool {
+    format == Format::ThreeMf
 }
 
 /// The format of the result; none if it is the editor's own file.

@@ -334,9 +334,11 @@ impl Editor {
             let text = "Export: nothing with faces is selected; select objects, or switch off Selection only";
             return self.message = Message::Refusal(text.into());
         }
-        let options = self.dialog.exchange.export.options(&self.document);
-        let written = export::format_by_ending(path)
-            .and_then(|format| export::write_as(&self.document, format, path, &options));
+        let choices = exchange.export;
+        let written = export::format_by_ending(path).and_then(|format| {
+            let options = choices.for_format(format).options(&self.document);
+            export::write_as(&self.document, format, path, &options)
+        });
         self.message = match written {
             Ok(losses) if losses.is_empty() => Message::Info(format!("Exported {}", path.display())),
             Ok(lines) => {

@@ -13,20 +13,31 @@ pub(super) struct Finding {
     pub(super) value: String,
     /// Whether it usually prevents printing or further work.
     pub(super) is_problem: bool,
+    /// What a closed body fills in the world, in cubic metres.
+    pub(super) filled: Option<f64>,
 }
 
 impl Finding {
     fn new(name: &'static str, value: impl Into<String>) -> Self {
-        Self { name, value: value.into(), is_problem: false }
+        Self { name, value: value.into(), is_problem: false, filled: None }
     }
 
     fn number(name: &'static str, value: f64, unit: &str) -> Self {
         Self::new(name, format!("{}{unit}", written(value)))
     }
 
+    /// In cubic metres, or in cubic centimetres where there are few.
+    fn volume(name: &'static str, value: f64) -> Self {
+        if value.abs() < 1e-3 {
+            Self::number(name, value * 1e6, " cm³")
+        } else {
+            Self::number(name, value, " m³")
+        }
+    }
+
     /// Something that should not be there.
     fn problem(name: &'static str, count: usize) -> Option<Self> {
-        (count > 0).then(|| Self { name, value: count.to_string(), is_problem: true })
+        (count > 0).then(|| Self { is_problem: true, ..Self::new(name, count.to_string()) })
     }
 }
 
@@ -41,16 +52,16 @@ pub(super) fn measured(document: &Document) -> Vec<Finding> {
             }
         }
     } else {
-        for node in selection.objects.iter().filter_map(|&id| document.nodes().node(id)) {
+        let nodes = document.nodes();
+        for (object, node) in selection.objects.iter().filter_map(|&id| Some((id, nodes.node(id)?))) {
             let Some(id) = node.mesh else { continue };
+            let enlarged = nodes.world_transform(object).matrix3.determinant().abs();
             findings.push(Finding::new("Object", node.name.clone()));
             match document.mesh(id) {
-                Some(mesh) => findings.extend(of_mesh(mesh)),
+                Some(mesh) => findings.extend(of_mesh(mesh, enlarged)),
                 None => {
-                    let asset = document.nodes().meshes().get(id);
-                    findings.extend(
-                        asset.into_iter().flat_map(|asset| of_mesh(&EditMesh::from_mesh(asset.mesh()).0)),
-                    );
+                    let mesh = nodes.meshes().get(id).map(|asset| EditMesh::from_mesh(asset.mesh()).0);
+                    findings.extend(mesh.iter().flat_map(|mesh| of_mesh(mesh, enlarged)));
                 }
             }
         }
@@ -115,11 +126,12 @@ fn angle_between(a: DVec3, b: DVec3) -> Option<f64> {
     (a != DVec3::ZERO && b != DVec3::ZERO).then(|| elementary::atan2(a.cross(b).length(), a.dot(b)))
 }
 
-fn of_mesh(mesh: &EditMesh) -> Vec<Finding> {
+/// Of a mesh in its own space; `enlarged` is how many times larger its volume is in the world.
+fn of_mesh(mesh: &EditMesh, enlarged: f64) -> Vec<Finding> {
     let inspection = mesh.inspect(&InspectionSettings::default());
     let mut findings = vec![Finding::number("Surface", mesh.surface_area(), " m²")];
     match inspection.volume {
-        Some(volume) => findings.push(Finding::number("Volume", volume, " m³")),
+        Some(volume) => findings.extend(of_body(volume, enlarged)),
         None => findings.push(Finding { is_problem: true, ..Finding::new("Watertight", "no") }),
     }
     if inspection.volume.is_some() {
@@ -128,6 +140,28 @@ fn of_mesh(mesh: &EditMesh) -> Vec<Finding> {
     findings.push(Finding::new("Parts", inspection.parts.len().to_string()));
     findings.extend(problems(&inspection));
     findings
+}
+
+/// Of a closed body: its volume, also that in the world where this is another one.
+fn of_body(volume: f64, enlarged: f64) -> Vec<Finding> {
+    let mut findings = vec![Finding::volume("Volume", volume)];
+    let in_world = volume * enlarged;
+    if (enlarged - 1.0).abs() > 1e-6 {
+        findings.push(Finding::volume("Volume in the world", in_world));
+    }
+    if let Some(last) = findings.last_mut() {
+        last.filled = Some(in_world.abs());
+    }
+    findings
+}
+
+/// A weight for people, given in kilograms.
+pub(super) fn weight(kilograms: f64) -> String {
+    if kilograms < 1.0 {
+        format!("{} g", written(kilograms * 1e3))
+    } else {
+        format!("{} kg", written(kilograms))
+    }
 }
 
 fn problems(found: &Inspection) -> impl Iterator<Item = Finding> {

@@ -5,21 +5,24 @@ mod measures;
 #[cfg(test)]
 mod tests;
 
+use trigon_document::modelling::PRINT_MATERIALS;
 use trigon_document::{Document, ElementKind};
 use trigon_window::egui::{self, CollapsingHeader, Grid, Ui};
 
 use super::ShownDocument;
-use super::row::{is_narrow, written};
+use super::row::{choice, is_narrow, written};
 use counts::{Counts, counted};
-use measures::{Finding, measured};
+use measures::{Finding, measured, weight};
 
-/// The state of the tab: the requested image.
+/// The state of the tab: what was counted and measured last, and of what closed bodies are weighed.
 #[derive(Debug, Default)]
 pub(crate) struct InformationState {
     counts: Option<(u64, Counts)>,
     /// The revision in the last pass.
     shown_revision: u64,
     measures: Option<(u64, Vec<Finding>)>,
+    /// An index in [`PRINT_MATERIALS`].
+    material: usize,
 }
 
 /// Shows it. `controls` are keys and what they do, as the keymap has them now.
@@ -45,7 +48,7 @@ pub(crate) fn information(
         section(ui, "Counts", |ui| show_counts(ui, counts));
         section(ui, "Dimensions", |ui| show_dimensions(ui, shown, counts));
     }
-    section(ui, "Measures", |ui| show_measures(ui, document, &mut state.measures));
+    section(ui, "Measures", |ui| show_measures(ui, document, state));
     section(ui, "Controls", |ui| show_controls(ui, controls));
 }
 
@@ -135,18 +138,41 @@ fn meters(value: f64) -> String {
     format!("{} m", written((value * 1e4).round() / 1e4))
 }
 
-fn show_measures(ui: &mut Ui, document: &Document, measures: &mut Option<(u64, Vec<Finding>)>) {
+fn show_measures(ui: &mut Ui, document: &Document, state: &mut InformationState) {
     let hover = "Lengths, angles, areas and volumes of the selection, and possible faults";
     if ui.add(egui::Button::new("Measure selection").wrap()).on_hover_text(hover).clicked() {
-        *measures = Some((document.revision(), measured(document)));
+        state.measures = Some((document.revision(), measured(document)));
     }
-    let Some((_, findings)) = measures else { return };
+    let Some((_, findings)) = &state.measures else { return };
+    if findings.iter().any(|finding| finding.filled.is_some()) {
+        material_list(ui, &mut state.material);
+    }
     for finding in findings {
         let text = format!("{}: {}", finding.name, finding.value);
         let text = egui::RichText::new(text);
         let text = if finding.is_problem { text.color(ui.visuals().warn_fg_color) } else { text };
         ui.add(egui::Label::new(text).wrap());
+        if let Some(volume) = finding.filled {
+            show_weight(ui, volume, state.material);
+        }
     }
+}
+
+/// What closed bodies are weighed of.
+fn material_list(ui: &mut Ui, chosen: &mut usize) {
+    let densities = PRINT_MATERIALS.map(|material| format!("{} g/cm³", written(material.density / 1e3)));
+    let named = PRINT_MATERIALS.iter().zip(&densities).enumerate();
+    let names: Vec<_> =
+        named.map(|(index, (material, density))| (index, material.name, &density[..])).collect();
+    choice(ui, "Material", "What closed bodies are weighed of.", chosen, &names);
+}
+
+/// The weight of a body of some cubic metres.
+fn show_weight(ui: &mut Ui, volume: f64, material: usize) {
+    let Some(material) = PRINT_MATERIALS.get(material) else { return };
+    let text = format!("Weight: {}", weight(volume * material.density));
+    let hover = "Filled, without supports. A unit of the model is a metre: scale a model that was drawn in millimetres by 0.001.";
+    ui.add(egui::Label::new(text).wrap()).on_hover_text(hover);
 }
 
 fn show_controls(ui: &mut Ui, controls: &[(String, String)]) {

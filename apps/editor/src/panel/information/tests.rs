@@ -53,6 +53,28 @@ fn a_cube_of_two_metres_is_measured() {
     assert!(!text(&case).contains("Volume"), "measured before it was changed");
 }
 
+/// 8 cm³ of 1.24 and of 1.04 g/cm³; then ten times as wide, high and deep.
+#[test]
+fn a_closed_body_is_weighed_of_the_chosen_material_as_it_stands_in_the_world() {
+    let mut scene = Scene::new();
+    scene.add_object("Cube", primitives::cube(0.02), Material::default());
+    let (document, state) = (Document::new(scene), InformationState::default());
+    let mut case = Case::new([260.0, 640.0], document, state, |ui, shown, state, _| {
+        information(ui, shown, state, &[]);
+    });
+    case.command(json!({ "op": "select", "objects": ["Cube"] }));
+    case.click("Measure selection");
+    let shown = text(&case);
+    assert!(shown.contains("Volume: 8 cm³") && shown.contains("Weight: 9.92 g"), "{shown}");
+    case.choose("Material", "ABS");
+    assert!(text(&case).contains("Weight: 8.32 g"), "{}", text(&case));
+    case.command(json!({ "op": "scale", "factors": [10, 10, 10] }));
+    case.click("Measure selection");
+    let shown = text(&case);
+    let lines = ["Volume: 8 cm³", "Volume in the world: 0.008 m³", "Weight: 8.32 kg"];
+    assert!(lines.iter().all(|line| shown.contains(line)), "{shown}");
+}
+
 #[test]
 fn elements_are_measured() {
     let mut case = case(260.0);

@@ -160,6 +160,8 @@ actions! {
     "Select/By Trait" "trait.sides" "Faces by Sides" "" EditMode Run(r#"{"op":"select_by_trait"}"#) => "Selects quads; adjust the number of sides with F9.";
     "Select/By Trait" "trait.loose" "Loose Geometry" "" EditMode Run(r#"{"op":"select_by_trait","by":"loose"}"#) => "Selects elements that no other uses.";
     "Select/By Trait" "trait.interior" "Interior Faces" "" EditMode Run(r#"{"op":"select_by_trait","by":"interior"}"#) => "Selects faces all of whose edges have more than two faces.";
+    "Select/By Trait" "trait.thin" "Thin Walls" "" EditMode Run(r#"{"op":"select_thin"}"#) => "Selects faces behind which the body is thinner than 0.8 mm; adjust it with F9.";
+    "Select/By Trait" "trait.overhangs" "Overhangs" "" EditMode Run(r#"{"op":"select_overhangs"}"#) => "Selects faces that a printer would print in the air; adjust the angle with F9.";
     "Select/By Trait" "select.sharp" "Sharp Edges" "" EditMode Run(r#"{"op":"select_sharp"}"#) => "Selects edges whose faces meet at a large angle.";
     "Select/By Trait" "select.normal" "By Direction" "" EditMode Run(r#"{"op":"select_by_normal"}"#) => "Selects faces that point up; adjust the direction with F9.";
     "Select/By Trait" "select.material" "By Material" "" EditMode Run(r#"{"op":"select_by_material"}"#) => "Selects faces of a material slot; choose it with F9.";
@@ -215,6 +217,7 @@ actions! {
     "Mesh/Boolean" "mesh.boolean_union" "Union" "" Elements Run(r#"{"op":"boolean","operation":"union"}"#) => "Unites the selected closed part of a mesh with its other faces.";
     "Mesh/Boolean" "mesh.boolean_difference" "Difference" "" Elements Run(r#"{"op":"boolean","operation":"difference"}"#) => "Cuts the selected closed part of a mesh out of its other faces.";
     "Mesh/Boolean" "mesh.boolean_intersection" "Intersection" "" Elements Run(r#"{"op":"boolean","operation":"intersection"}"#) => "Leaves what is within the selected part of a mesh and within its other faces.";
+    "Mesh" "mesh.make_solid" "Make Solid" "" EditMode Run(r#"{"op":"make_solid"}"#) => "Joins doubles, fills holes and turns faces outwards, and reports what is left.";
     "Mesh" "mesh.repair" "Clean Up" "" EditMode Run(r#"{"op":"repair"}"#) => "Removes loose and duplicate elements.";
     "Mesh" "mesh.reset_vertices" "Reset to Original Positions" "" Elements Run(r#"{"op":"reset_vertices"}"#) => "Moves vertices back to their original positions.";
     "Mesh/Mirror" "mesh.mirror_x" "X" "Ctrl+M" Elements Run(r#"{"op":"mirror"}"#) => "Mirrors the selection in x, about the origin of its object.";

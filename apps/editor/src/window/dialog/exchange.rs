@@ -11,7 +11,7 @@ use trigon_window::egui::{ComboBox, Ui};
 use trigon_window::scene::math::{Bounds3, DMat3, DVec3};
 
 use crate::arguments::Arguments;
-use crate::export::{ExportChoices, format_by_ending};
+use crate::export::{ExportChoices, format_by_ending, states_unit};
 use crate::panel::written;
 
 /// The choices in the file window. They stay until the editor is closed.
@@ -45,9 +45,12 @@ impl Extents {
     }
 }
 
+/// In a metre.
+const MILLIMETRES: f64 = 1000.0;
+
 /// Units of files, by how many there are in a metre.
 const UNITS: [(&str, f64); 4] =
-    [("metres", 1.0), ("centimetres", 100.0), ("millimetres", 1000.0), ("inches", 1.0 / 0.0254)];
+    [("metres", 1.0), ("centimetres", 100.0), ("millimetres", MILLIMETRES), ("inches", 1.0 / 0.0254)];
 
 impl Default for Exchange {
     fn default() -> Self {
@@ -93,8 +96,15 @@ impl Exchange {
             }
         });
         up_list(ui, &mut self.export.up);
-        unit_list(ui, &mut self.export.scale);
+        if !states_unit(format) {
+            unit_list(ui, &mut self.export.scale);
+        }
         self.show_size(ui, format);
+    }
+
+    /// How many units of the file are a metre.
+    fn units_in(&self, format: Format) -> f64 {
+        if states_unit(format) { MILLIMETRES } else { self.export.scale }
     }
 
     /// How large things will be in the file, in its numbers.
@@ -102,10 +112,11 @@ impl Exchange {
         let Extents { all, selected } =
             if self.export.modifiers { self.extents } else { self.edited_extents };
         let extent = if self.export.selection_only { selected } else { all };
-        let Some(size) = extent.map(|extent| extent * self.export.scale) else { return };
+        let Some(extent) = extent else { return };
         let up = self.export.up.unwrap_or_else(|| format.up());
-        let [x, y, z] = size_along(size, up).map(written);
-        let unit = unit_name(self.export.scale);
+        let scale = self.units_in(format);
+        let [x, y, z] = size_along(extent * scale, up).map(written);
+        let unit = unit_name(scale);
         ui.label(format!("Size in the file: {x} × {y} × {z} ({unit})"));
         if format == Format::Stl {
             ui.weak("STL has no unit. Programs for printing take its numbers as millimetres.");
@@ -153,7 +164,7 @@ fn held_by(format: Format) -> &'static str {
         }
         Format::Stl => "Keeps triangles alone, as one mesh, for printing: +Z is up. Loses everything else.",
         Format::ThreeMf => {
-            "Keeps triangles, objects with their copies, colors and names of materials, for printing: in millimeters, +Z is up. Loses images, normals, lights and cameras."
+            "Keeps triangles, objects with their copies, colors and names of materials, for printing: in true size, in millimeters, +Z is up. Loses polygons, images, normals, lights and cameras."
         }
         Format::Off => "Keeps polygons alone, as one mesh. Loses everything else.",
         _ => "Keeps objects, materials, images, lights and cameras. Loses polygons: they become triangles.",
@@ -186,6 +197,25 @@ fn unit_list(ui: &mut Ui, scale: &mut f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A unit that was chosen for an STL enlarged a 3MF, which is in millimetres by itself.
+    #[test]
+    fn a_unit_that_was_chosen_for_another_format_leaves_a_3mf_in_true_size() {
+        let mut document = Document::default();
+        let cube = r#"{ "op": "add_object", "object": { "shape": "cube", "edge": 2 } }"#;
+        document.run(serde_json::from_str(cube).expect("a command")).expect("it can be done");
+        let mut exchange = Exchange::default();
+        let bytes = |export: ExportChoices, format: Format| {
+            let options = export.for_format(format).options(&document);
+            document.export("model", format, &options).expect("it can be written").files.remove(0).bytes
+        };
+        let [stl, three_mf] = [Format::Stl, Format::ThreeMf].map(|format| bytes(exchange.export, format));
+        exchange.export.scale = UNITS[1].1;
+        assert_eq!(exchange.units_in(Format::ThreeMf), 1000.0, "as its size is shown");
+        assert_eq!(bytes(exchange.export, Format::ThreeMf), three_mf);
+        assert_eq!(exchange.units_in(Format::Stl), 100.0);
+        assert_ne!(bytes(exchange.export, Format::Stl), stl);
+    }
 
     /// The size had the axes of the document, and modifiers were left out.
     #[test]
