@@ -41,7 +41,9 @@ impl Mask {
                 let [a, b, c] = corners.map(|corner| corner.y);
                 select(select(a, b), c)
             });
-            for row in first_cell(low)..=last_cell(high).max(first_cell(low)) {
+            // One along the line between two rows lies in the lower one: there may be none above.
+            let last = last_cell(high);
+            for row in first_cell(low).min(last)..=last {
                 rows[row].push(cells_in_row(&corners, row));
             }
         }
@@ -110,8 +112,8 @@ fn cells_in_row(corners: &[DVec2; 3], row: usize) -> CellRun {
             }
         }
     }
-    let from = first_cell(low);
-    CellRun { row, from, to: last_cell(high).max(from) + 1 }
+    let last = last_cell(high);
+    CellRun { row, from: first_cell(low).min(last), to: last + 1 }
 }
 
 /// Runs that touch become one.
