@@ -127,9 +127,14 @@ impl SweptFaces {
         let copies = end.vertices.iter().zip(&self.all.vertices);
         let pairs: Vec<_> = copies.filter_map(|(&copied, vertex)| Some((copied, ring(vertex)?))).collect();
         mesh.merge_vertices(&pairs).expect("all exist, and each copy has one target");
-        spun.ends = end.faces;
-        if !self.free.is_empty() {
-            let shell: Vec<FaceId> = spun.faces.iter().chain(&spun.ends).chain(&self.free).copied().collect();
+        // Where the end touches the beginning, faces that would lie on others are gone.
+        let is_left = |face: &FaceId| mesh.has_face(*face);
+        spun.ends = end.faces.into_iter().filter(is_left).collect();
+        spun.faces.retain(is_left);
+        spun.edges.retain(|&edge| mesh.has_edge(edge));
+        let free = self.free.iter().copied().filter(is_left);
+        let shell: Vec<FaceId> = free.chain(spun.faces.iter().chain(&spun.ends).copied()).collect();
+        if !self.free.is_empty() && !shell.is_empty() {
             mesh.recalculate_normals(&shell).expect("they exist");
         }
     }

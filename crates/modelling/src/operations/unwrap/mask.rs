@@ -135,3 +135,25 @@ fn far_apart(runs: &[CellRun]) -> Vec<CellRun> {
     let reversed = |i: usize| if bits == 0 { i } else { i.reverse_bits() >> (usize::BITS - bits) };
     (1usize..=1 << bits).filter_map(|i| runs.get(reversed(i % (1 << bits))).copied()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// It was looked for in the row above, of which there is none.
+    #[test]
+    fn a_flat_triangle_along_the_border_lies_in_the_last_cells() {
+        let corner = |x: f64, y: f64| DVec2::new(x, y);
+        let points =
+            [corner(0.0, 0.0), corner(4.0, 0.0), corner(0.0, 4.0), corner(2.0, 4.0), corner(4.0, 4.0)];
+        for triangles in [[[0, 1, 2], [2, 3, 4]], [[0, 1, 2], [4, 1, 4]]] {
+            let mask = Mask::new(&points, &triangles, 1.0);
+            assert_eq!((mask.width, mask.height), (4, 4));
+            assert!(mask.runs.iter().all(|run| run.row < 4 && run.to <= 4), "{:?}", mask.runs);
+            let covers = |x: usize, y: usize| {
+                mask.runs.iter().any(|run| run.row == y && (run.from..run.to).contains(&x))
+            };
+            assert!(covers(3, 3) && covers(0, 0), "its last cell, and the first one: {:?}", mask.runs);
+        }
+    }
+}
