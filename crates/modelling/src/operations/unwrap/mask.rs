@@ -43,8 +43,9 @@ impl Mask {
             });
             // One along the line between two rows lies in the lower one: there may be none above.
             let last = last_cell(high);
-            for row in first_cell(low).min(last)..=last {
-                rows[row].push(cells_in_row(&corners, row));
+            let first = first_cell(low).min(last);
+            for (row, cells) in (first..).zip(&mut rows[first..=last]) {
+                cells.push(cells_in_row(&corners, row));
             }
         }
         let runs: Vec<CellRun> =
