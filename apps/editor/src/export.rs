@@ -90,10 +90,13 @@ pub(crate) fn write(
     output: &Path,
     arguments: &Arguments,
 ) -> Result<(), String> {
-    let options = ExportChoices::new(arguments).options(document);
+    let options = ExportChoices::new(arguments).for_format(format).options(document);
     let losses = write_as(document, format, output, &options)?;
     if !arguments.quiet {
         losses.iter().for_each(|loss| report("warning", loss));
+        if arguments.scale.is_some() && states_unit(format) {
+            report("warning", "--scale is left out: the format states its unit, and sizes are true");
+        }
     }
     Ok(())
 }

@@ -96,6 +96,7 @@ fn the_ending_of_the_output_chooses_its_format() {
         ("out.off", &["--quiet"], 8),
         ("out.glb", &["--selection-only"], 16),
         ("edited.off", &["--no-modifiers"], 4),
+        ("out.3mf", &["--scale", "1000"], 16),
     ] {
         let output = folder.join(name);
         let mut arguments = vec!["--run".as_ref(), script.as_path(), &model, "--output".as_ref(), &output];
@@ -105,6 +106,12 @@ fn the_ending_of_the_output_chooses_its_format() {
         let (mut document, _) = Document::open(&output, &LoadOptions::default()).expect("as written");
         let count: usize = document.scene().meshes().iter().map(|(_, asset)| asset.mesh().face_count()).sum();
         assert_eq!(count, faces, "{name}");
+        if name == "out.3mf" {
+            let told = String::from_utf8_lossy(&done.stderr);
+            assert!(told.contains("--scale is left out"), "{told}");
+            let size = document.scene().bounds().size();
+            assert!((size.max_element() - 2.0).abs() < 1e-6, "two squares of 1 m in a row: {size}");
+        }
     }
     let refused = run(&["--run".as_ref(), &script, &model, "--output".as_ref(), &folder.join("out.fbx")]);
     let message = String::from_utf8_lossy(&refused.stderr).into_owned();

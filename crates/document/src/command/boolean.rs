@@ -71,15 +71,17 @@ impl Boolean {
         if tools.is_empty() {
             return Err(refused);
         }
-        check_solid(change, object, mesh)?;
+        if let Some(refusal) = change.mesh(mesh).and_then(|mesh| mesh.check_solid().err()) {
+            return Err(of_object(change, object, refusal));
+        }
         let from_world = inverse(change.scene().world_transform(object), COMMAND)?;
         let mut slots = Slots::of_active(change, object, mesh)?;
         let mut operands = Vec::with_capacity(tools.len());
         for (tool, mesh) in tools {
-            check_solid(change, tool, mesh)?;
+            let Some(mut mesh) = change.mesh_to_read(mesh) else { continue };
+            mesh.check_solid().map_err(|refusal| of_object(change, tool, refusal))?;
             let transform = from_world * change.scene().world_transform(tool);
             let materials = change.scene().node(tool).map(|node| node.materials.clone()).unwrap_or_default();
-            let Some(mut mesh) = change.mesh(mesh).cloned() else { continue };
             slots.assign(change.scene_mut(), &mut mesh, &materials);
             operands.push(ToolObject { object: tool, mesh, transform });
         }
@@ -132,10 +134,8 @@ impl Boolean {
     }
 }
 
-/// Refuses an object whose mesh bounds no volume, by name.
-fn check_solid(change: &mut Change<'_>, object: NodeId, mesh: MeshId) -> Result<(), EditError> {
-    let refusal: Option<Refusal> = change.mesh(mesh).and_then(|mesh| mesh.check_solid().err());
-    let Some(refusal) = refusal else { return Ok(()) };
+/// A refusal with the name of the object that it is about.
+fn of_object(change: &Change<'_>, object: NodeId, refusal: Refusal) -> EditError {
     let name = change.scene().node(object).map(|node| node.name.clone()).unwrap_or_default();
-    Err(EditError::OfObject { name, refusal })
+    EditError::OfObject { name, refusal }
 }

@@ -61,6 +61,13 @@ fn the_active_object_is_combined_with_the_selected_ones() {
 fn named_objects_are_combined_and_tools_may_stay() {
     let (mut document, [body, tool]) = cubes();
     let boolean = json!({ "op": "boolean", "object": "body", "objects": ["tool"], "keep_tools": true });
+    run(&mut document, json!({ "op": "edit_objects", "objects": ["body"] }));
+    run(&mut document, json!({ "op": "leave_edit_mode" }));
+    let bytes = |document: &Document| document.to_native().encode().expect("it can be").to_bytes();
+    let before = bytes(&document);
+    run(&mut document, boolean.clone());
+    document.undo().expect("one");
+    assert!(bytes(&document) == before, "what was only read is as it was");
     run(&mut document, boolean.clone());
     assert!((volume(&document, body) - 4.0).abs() < 1e-5, "half is left");
     assert!(document.nodes().node(tool).is_some(), "the tool stays");
