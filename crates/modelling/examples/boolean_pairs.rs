@@ -5,14 +5,17 @@
 //! and for the difference the other way round, the seconds, the volume, the number of faces and whether every side of a
 //! face has exactly one opposite side; or the reason of a refusal. Of the files only `v` and `f` are read.
 
+mod common;
+
 use std::collections::HashMap;
 use std::error::Error;
 use std::io::{BufRead, Write};
 use std::time::Instant;
 
-use trigon_math::{DAffine3, DVec3, Vec3};
-use trigon_mesh::MeshBuilder;
+use trigon_math::{DAffine3, DVec3};
 use trigon_modelling::{BooleanOperation, BooleanTool, EditMesh};
+
+use common::read;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut output = std::io::stdout().lock();
@@ -54,27 +57,6 @@ fn result(name: &str, mesh: &EditMesh, tools: &[BooleanTool<'_>], operation: Boo
         ),
         Err(refusal) => format!(r#""{name}": {{"refusal": {:?}}}"#, refusal.to_string()),
     }
-}
-
-fn read(path: &str) -> Result<EditMesh, Box<dyn Error>> {
-    let mut builder = MeshBuilder::new();
-    for line in std::fs::read_to_string(path)?.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let position: Vec<f32> = words.take(3).map(str::parse).collect::<Result<_, _>>()?;
-                builder.push_vertex(Vec3::from_array(position[..].try_into()?));
-            }
-            Some("f") => {
-                let index =
-                    |word: &str| word.split('/').next().unwrap_or(word).parse::<u32>().map(|index| index - 1);
-                let face: Vec<u32> = words.map(index).collect::<Result<_, _>>()?;
-                builder.push_face(&face)?;
-            }
-            _ => {}
-        }
-    }
-    Ok(EditMesh::from_mesh(&builder.build()).0)
 }
 
 /// By the divergence theorem along the x axis.

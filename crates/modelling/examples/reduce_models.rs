@@ -4,14 +4,17 @@
 //! the OBJ file to write. For each it writes a line of JSON: the seconds of the operation itself, and how many triangles
 //! are left.
 
+mod common;
+
 use std::error::Error;
 use std::fmt::Write as _;
 use std::io::{BufRead, Write};
 use std::time::Instant;
 
 use trigon_math::Vec3;
-use trigon_mesh::MeshBuilder;
 use trigon_modelling::{DecimateGoal, DecimateSettings, EditMesh, FaceId};
+
+use common::read;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut output = std::io::stdout().lock();
@@ -31,26 +34,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         output.flush()?;
     }
     Ok(())
-}
-
-fn read(path: &str) -> Result<EditMesh, Box<dyn Error>> {
-    let mut builder = MeshBuilder::new();
-    for line in std::fs::read_to_string(path)?.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let position: Vec<f32> = words.take(3).map(str::parse).collect::<Result<_, _>>()?;
-                builder.push_vertex(Vec3::from_array(position[..].try_into()?));
-            }
-            Some("f") => {
-                let face: Vec<u32> =
-                    words.map(|word| word.parse::<u32>().map(|index| index - 1)).collect::<Result<_, _>>()?;
-                builder.push_face(&face)?;
-            }
-            _ => {}
-        }
-    }
-    Ok(EditMesh::from_mesh(&builder.build()).0)
 }
 
 fn text(mesh: &EditMesh) -> String {

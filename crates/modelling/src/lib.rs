@@ -51,7 +51,7 @@ pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, FaceThickness, Inspection, InspectionSettings, NonPlanarFace,
-    OverhangSettings, PrintReport, PrintSettings, TouchingFaces,
+    OverhangSettings, TouchingFaces,
 };
 pub use measure::{PRINT_MATERIALS, PrintMaterial};
 pub use modifier::{
