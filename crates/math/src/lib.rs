@@ -43,6 +43,7 @@ mod plane;
 mod polygon;
 mod predicates;
 mod random;
+pub mod simd;
 
 pub use glam;
 /// Matrices of views and projections in the conventions above, with angles in radians: a camera that looks along −Z, and
@@ -57,7 +58,7 @@ pub use fixed::{Fixed, FixedPoint};
 pub use predicates::{Orientation, is_mirroring, orientation, orientation_fixed, side_of_triangle};
 
 pub use bounds::Bounds3;
-pub use bvh::{Bvh, Ray, RayHit};
+pub use bvh::{Bvh, Hemispheres, Ray, RayHit, Rays, Surroundings};
 pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, clip_segment, clip_triangle};
 
 pub use direction::{angle, cofactors, or_if_zero, transformed_delta, transformed_direction, unit_or_zero};

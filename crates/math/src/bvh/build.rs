@@ -1,6 +1,8 @@
 //! Building: triangles are split where this is expected to save the most tests.
 
+use fearless_simd::Level;
 use glam::Vec3;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::Bvh;
 use super::wide::{Child, Leaf, Node, WIDTH};
@@ -51,39 +53,68 @@ impl Extent {
 }
 
 impl Bvh {
-    /// A hierarchy over triangles, numbered in their order. No ray hits a triangle with a
-    /// coordinate that is not finite.
+    /// A hierarchy over triangles, numbered in their order, built by the threads of the current rayon pool. No ray hits a
+    /// triangle with a coordinate that is not finite.
     #[must_use]
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
         let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
         let numbered = (0_u32..).zip(triangles).filter(|(_, corners)| usable(corners));
         let mut items: Vec<Item> = numbered.map(|(number, corners)| item(number, corners)).collect();
-        let mut tree = Bvh { len: items.len(), ..Self::default() };
-        let whole = Extent::of(&items);
-        if let Some(child) = tree.grow(&mut items, triangles) {
-            let mut root = Node::EMPTY;
-            root.set(0, whole.min, whole.max, child);
-            tree.nodes.push(root);
-        }
-        tree
+        let extent = Extent::of(&items);
+        let extent = if items.is_empty() { [Vec3::ZERO; 2] } else { [extent.min, extent.max] };
+        let mut tree = Subtree::default();
+        let root = tree.grow(&mut items, triangles);
+        let Subtree { nodes, leaves } = tree;
+        Self { root, nodes, leaves, len: items.len(), extent, level: Level::new() }
     }
+}
 
-    /// Adds the nodes of some items, which it reorders, children first; none without items. The
+/// Nodes and leaves of some items.
+#[derive(Default)]
+struct Subtree {
+    nodes: Vec<Node>,
+    leaves: Vec<Leaf>,
+}
+
+impl Subtree {
+    /// Adds the nodes of some items, which it reorders, children first. The
     /// depth of the recursion is bounded by splitting in the middle if the bins do not split well.
-    fn grow(&mut self, items: &mut [Item], triangles: &[[Vec3; 3]]) -> Option<Child> {
+    fn grow(&mut self, items: &mut [Item], triangles: &[[Vec3; 3]]) -> Child {
+        /// Fewer items are faster on one thread.
+        const FOR_THREADS: usize = 16_384;
         if items.len() <= WIDTH {
             let numbered = items.iter().map(|item| (item.number, triangles[item.number as usize]));
             self.leaves.push(Leaf::new(numbered));
-            return (!items.is_empty()).then(|| Child::leaf(self.leaves.len() - 1));
+            return Child::leaf(self.leaves.len() - 1);
         }
         let mut node = Node::EMPTY;
-        for (slot, (Extent { min, max }, group)) in groups(items).into_iter().enumerate() {
-            if let Some(child) = self.grow(group, triangles) {
-                node.set(slot, min, max, child);
+        if items.len() < FOR_THREADS {
+            for (slot, (extent, group)) in groups(items).into_iter().enumerate() {
+                node.set(slot, extent.min, extent.max, self.grow(group, triangles));
+            }
+        } else {
+            let grown = |(extent, group): (Extent, &mut [Item])| {
+                let mut subtree = Self::default();
+                let root = subtree.grow(group, triangles);
+                (extent, subtree, root)
+            };
+            let grown: Vec<(Extent, Self, Child)> = groups(items).into_par_iter().map(grown).collect();
+            for (slot, (extent, subtree, root)) in grown.into_iter().enumerate() {
+                let (nodes, leaves) = (self.nodes.len(), self.leaves.len());
+                self.append(subtree);
+                node.set(slot, extent.min, extent.max, root.moved(nodes, leaves));
             }
         }
         self.nodes.push(node);
-        Some(Child::node(self.nodes.len() - 1))
+        Child::node(self.nodes.len() - 1)
+    }
+
+    fn append(&mut self, subtree: Self) {
+        let (nodes, leaves) = (self.nodes.len(), self.leaves.len());
+        let moved =
+            |node: Node| Node { children: node.children.map(|child| child.moved(nodes, leaves)), ..node };
+        self.nodes.extend(subtree.nodes.into_iter().map(moved));
+        self.leaves.extend(subtree.leaves);
     }
 }
 
@@ -105,6 +136,8 @@ fn groups(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
         let (first, second) = items.split_at_mut(middle);
         groups.extend([boxed(first), boxed(second)]);
     }
+    // The largest first: rays that look for any hit visit them in this order.
+    groups.sort_by(|(a, _), (b, _)| b.half_area().total_cmp(&a.half_area()));
     groups
 }
 
@@ -139,9 +172,7 @@ fn split(items: &mut [Item]) -> usize {
         if bin < BINS as f32 { bin as usize } else { BINS - 1 }
     };
     let border = border(items, bin);
-    // Stable, so that the order is unique.
-    items.sort_by_key(|item| bin(item) >= border);
-    let first = items.partition_point(|item| bin(item) < border);
+    let first = partition(items, |item| bin(item) < border);
     // A lopsided tree is deep: no side gets less than a sixteenth.
     let least = items.len() / 16 + 1;
     if (least..=items.len() - least).contains(&first) {
@@ -149,6 +180,18 @@ fn split(items: &mut [Item]) -> usize {
     }
     items.sort_by(|a, b| a.middle()[axis].total_cmp(&b.middle()[axis]));
     half
+}
+
+/// Moves the items that belong to the first side before the others, and returns the number of the first of these.
+fn partition(items: &mut [Item], is_first: impl Fn(&Item) -> bool) -> usize {
+    let mut first = 0;
+    for place in 0..items.len() {
+        if is_first(&items[place]) {
+            items.swap(first, place);
+            first += 1;
+        }
+    }
+    first
 }
 
 /// The first bin of the second side, where areas times counts are least.
@@ -166,7 +209,7 @@ fn border(items: &[Item], bin: impl Fn(&Item) -> usize) -> usize {
             let (border, added) = if backwards { (BINS - step, BINS - step) } else { (step, step - 1) };
             extent.add(bins[added].0.min, bins[added].0.max);
             count += bins[added].1;
-            costs[border] += extent.half_area() * count as f32;
+            costs[border] += extent.half_area() * count.div_ceil(WIDTH) as f32;
         }
     }
     (1..BINS).fold(1, |best, border| if costs[border] < costs[best] { border } else { best })

@@ -3,13 +3,17 @@
 //!
 //! Built by the surface area heuristic over bins (I. Wald, "On fast Construction of SAH-based Bounding Volume
 //! Hierarchies", 2007), in one fixed order, so that the same triangles give the same tree. Rays leak through no
-//! edge and no vertex (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", 2013). Four boxes
-//! or four triangles are tested at once (H. Dammertz, J. Hanika and A. Keller, "Shallow Bounding Volume
-//! Hierarchies for Fast SIMD Ray Tracing", 2008). The box test is widened by its own rounding (T. Ize, "Robust BVH
-//! Ray Traversal", 2013), so that the tree gives the same results as testing every triangle.
+//! edge and no vertex (S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", 2013). Eight boxes
+//! or eight triangles are tested at once (H. Dammertz, J. Hanika and A. Keller, "Shallow Bounding Volume
+//! Hierarchies for Fast SIMD Ray Tracing", 2008), and eight rays are prepared at once. The box test is widened by its
+//! own rounding (T. Ize, "Robust BVH Ray Traversal", 2013), so that the tree gives the same results as testing every
+//! triangle, at every SIMD level.
 
 mod build;
+mod prepared;
 mod ray;
+mod stack;
+mod surroundings;
 mod traverse;
 mod triangle;
 mod wide;
@@ -17,9 +21,13 @@ mod wide;
 #[cfg(test)]
 mod tests;
 
-pub use ray::{Ray, RayHit};
+pub use ray::{Ray, RayHit, Rays};
+pub use surroundings::{Hemispheres, Surroundings};
 
-use wide::{Leaf, Node};
+use fearless_simd::Level;
+use glam::Vec3;
+
+use wide::{Child, Leaf, Node};
 
 /// A bounding volume hierarchy over triangles.
 ///
@@ -33,13 +41,24 @@ use wide::{Leaf, Node};
 /// assert_eq!((hit.triangle, hit.distance), (0, 2.0));
 /// assert!(!bvh.occluded(&down, 0.0..1.5), "it is too far away");
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Bvh {
-    /// Children before their parents; the root is the last.
+    root: Child,
+    /// Children before their parents.
     nodes: Vec<Node>,
     leaves: Vec<Leaf>,
     /// Triangles in all leaves.
     len: usize,
+    /// The corners of their box.
+    extent: [Vec3; 2],
+    /// The instructions that the processor has.
+    level: Level,
+}
+
+impl Default for Bvh {
+    fn default() -> Self {
+        Self::new(&[])
+    }
 }
 
 impl Bvh {

@@ -1,5 +1,7 @@
 //! Rays and hits.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
 /// A ray.
@@ -16,6 +18,37 @@ impl Ray {
     #[must_use]
     pub fn at(&self, distance: f32) -> Vec3 {
         self.origin + self.direction * distance
+    }
+}
+
+/// Eight rays, component by component.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays<S: Simd> {
+    /// Their origins, by axis.
+    pub origin: [f32x8<S>; 3],
+    /// By axis; of any length but zero. Distances are measured in it.
+    pub direction: [f32x8<S>; 3],
+    /// The least distance that counts, for each ray.
+    pub start: f32x8<S>,
+    /// The greatest.
+    pub end: f32x8<S>,
+    /// One bit for each ray, which says whether it is cast.
+    pub active: u32,
+}
+
+impl<S: Simd> Rays<S> {
+    /// A single ray.
+    #[inline(always)]
+    pub(super) fn one(simd: S, ray: &Ray, range: std::ops::Range<f32>) -> Self {
+        let (origin, direction) = (ray.origin, ray.direction);
+        let splat = |value: f32| f32x8::splat(simd, value);
+        Self {
+            origin: [splat(origin.x), splat(origin.y), splat(origin.z)],
+            direction: [splat(direction.x), splat(direction.y), splat(direction.z)],
+            start: splat(range.start),
+            end: splat(range.end),
+            active: 1,
+        }
     }
 }
 

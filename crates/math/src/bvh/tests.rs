@@ -1,10 +1,11 @@
 //! The tree answers as a look at every triangle does.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{dispatch, f32x8};
 use glam::{DVec3, Vec3};
-
-use super::triangle::ShearedRay;
-use super::*;
 use proptest::prelude::*;
+
+use super::*;
 
 fn vector() -> impl Strategy<Value = Vec3> {
     // A coarse grid, too: rays then meet edges, vertices and sides of boxes.
@@ -151,17 +152,129 @@ fn check_in_f64(scene: &FarScene) {
     }
 }
 
+/// The hit of a ray on one triangle, number by number: corners sheared in f32 as Woop, Benthin and Wald do, and everything
+/// else in f64, where products of two f32 are exact.
+fn on_one_triangle(corners: &[Vec3; 3], ray: &Ray) -> Option<RayHit> {
+    let along = ray.direction.abs();
+    let z = (0..2).fold(2, |best, axis| if along[axis] > along[best] { axis } else { best });
+    let z = if z != 2 && along.x == along.y { 1 } else { z };
+    let [mut x, mut y] = [(z + 1) % 3, (z + 2) % 3];
+    if ray.direction[z] < 0.0 {
+        std::mem::swap(&mut x, &mut y);
+    }
+    let shear = [x, y].map(|axis| ray.direction[axis] / ray.direction[z]);
+    let [across, down] = shear.map(|shear| if shear.is_normal() { shear } else { 0.0 });
+    let [a, b, c] = corners.map(|corner| {
+        let from = corner - ray.origin;
+        [from[x] - across * from[z], from[y] - down * from[z], from[z]].map(f64::from)
+    });
+    let [u, v, w] = [(c, b), (a, c), (b, a)].map(|(p, q): ([f64; 3], [f64; 3])| p[0] * q[1] - p[1] * q[0]);
+    let is_inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+    let sum = u + v + w;
+    let inverse = 1.0 / ray.direction[z];
+    let distance = ((u * a[2] + v * b[2] + w * c[2]) / sum * f64::from(inverse)) as f32;
+    let weights = [u, v, w].map(|edge| (edge / sum) as f32);
+    (is_inside && sum != 0.0 && distance.is_finite()).then_some(RayHit { distance, triangle: 0, weights })
+}
+
 fn by_brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Option<RayHit> {
-    let sheared = ShearedRay::new(ray);
     let mut nearest: Option<RayHit> = None;
     for (triangle, corners) in (0_u32..).zip(triangles) {
-        let met = sheared.meet(&Leaf::new(std::iter::once((triangle, *corners))).corners);
-        let (distance, weights) = (met.distances[0], met.weights.map(|weight| weight[0]));
-        if distance >= 0.0 && distance.is_finite() && nearest.is_none_or(|best| distance < best.distance) {
-            nearest = Some(RayHit { distance, triangle, weights });
+        let hit = on_one_triangle(corners, ray).filter(|hit| hit.distance >= 0.0);
+        let is_nearer = |hit: &RayHit| nearest.is_none_or(|best| hit.distance < best.distance);
+        if let Some(hit) = hit.filter(is_nearer) {
+            nearest = Some(RayHit { triangle, ..hit });
         }
     }
     nearest
+}
+
+/// The levels of this processor.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    let mut levels = vec![best, Level::Fallback(fearless_simd::Fallback::new())];
+    #[cfg(target_arch = "x86_64")]
+    {
+        levels.extend(best.as_sse2().map(Level::Sse2));
+        levels.extend(best.as_avx2().map(Level::Avx2));
+    }
+    levels
+}
+
+/// Holds a tree to [`by_brute_force`], at every level, ray by ray and eight at a time, from the root and among
+/// surroundings.
+fn check_by_brute_force(triangles: &[[Vec3; 3]], rays: &[Ray]) {
+    let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
+    let triangles: Vec<[Vec3; 3]> =
+        triangles.iter().map(|corners| if usable(corners) { *corners } else { [Vec3::NAN; 3] }).collect();
+    let is_ray =
+        |ray: &Ray| ray.direction.is_finite() && ray.direction != Vec3::ZERO && ray.origin.is_finite();
+    let of = |hit: Option<RayHit>| hit.map(|hit| (hit.triangle, hit.distance));
+    let expected: Vec<Option<RayHit>> =
+        rays.iter().map(|ray| is_ray(ray).then(|| by_brute_force(&triangles, ray)).flatten()).collect();
+    for level in levels() {
+        let bvh = Bvh { level, ..Bvh::new(&triangles) };
+        for (ray, &expected) in rays.iter().zip(&expected) {
+            assert_eq!(of(bvh.nearest(ray, 0.0..f32::INFINITY)), of(expected), "{level:?} {ray:?}");
+            assert_eq!(bvh.occluded(ray, 0.0..f32::INFINITY), expected.is_some(), "{level:?} {ray:?}");
+        }
+        for (rays, expected) in rays.chunks(8).zip(expected.chunks(8)) {
+            let (hits, occluded) = eight_at_once(&bvh, rays);
+            for (lane, &expected) in expected.iter().enumerate() {
+                assert_eq!(of(hits[lane]), of(expected), "{level:?} {:?}", rays[lane]);
+                assert_eq!(occluded >> lane & 1 != 0, expected.is_some(), "{level:?} {:?}", rays[lane]);
+            }
+        }
+    }
+}
+
+/// The first hits of up to eight rays, and which of them hit anything.
+fn eight_at_once(bvh: &Bvh, rays: &[Ray]) -> ([Option<RayHit>; 8], u32) {
+    let column = |of: &dyn Fn(&Ray) -> f32| std::array::from_fn(|lane| rays.get(lane).map_or(0.0, of));
+    let origin: [[f32; 8]; 3] = [0, 1, 2].map(|axis| column(&|ray| ray.origin[axis]));
+    let direction: [[f32; 8]; 3] = [0, 1, 2].map(|axis| column(&|ray| ray.direction[axis]));
+    dispatch!(bvh.level, simd => {
+        let rays = Rays {
+            origin: origin.map(|column| f32x8::simd_from(simd, column)),
+            direction: direction.map(|column| f32x8::simd_from(simd, column)),
+            start: f32x8::splat(simd, 0.0),
+            end: f32x8::splat(simd, f32::INFINITY),
+            active: (1 << rays.len()) - 1,
+        };
+        (bvh.nearest_rays(simd, &rays, &mut |_, _| true), bvh.occluded_rays(simd, &rays, None))
+    })
+}
+
+/// Points on or above triangles, with rays into their hemispheres, and how far these go.
+#[derive(Debug)]
+struct Outlook {
+    points: Vec<[Vec3; 2]>,
+    rays: Vec<Ray>,
+    distance: f32,
+}
+
+/// Eight rays from each of eight points of a scene.
+fn outlook(scene: &FarScene, turns: &[Vec3]) -> Outlook {
+    let largest =
+        scene.triangles.iter().flatten().fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
+    let normals = scene.triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).normalize_or_zero());
+    let on = |([a, b, c], normal): (&[Vec3; 3], Vec3)| {
+        let middle = (*a + *b + *c) / 3.0;
+        [middle + normal * (64.0 * f32::EPSILON * largest), normal]
+    };
+    let points: Vec<[Vec3; 2]> = scene
+        .triangles
+        .iter()
+        .zip(normals)
+        .map(on)
+        .filter(|[_, normal]| *normal != Vec3::ZERO)
+        .take(8)
+        .collect();
+    let into = |normal: Vec3, turn: Vec3| if turn.dot(normal) < 0.0 { -turn } else { turn };
+    let rays = points.iter().flat_map(|&[origin, normal]| {
+        turns.iter().map(move |&turn| Ray { origin, direction: into(normal, turn.normalize_or_zero()) })
+    });
+    Outlook { rays: rays.collect(), distance: largest * 0.5, points }
 }
 
 proptest! {
@@ -173,7 +286,8 @@ proptest! {
         prop_assume!(direction != Vec3::ZERO);
         let (bvh, ray) = (Bvh::new(&triangles), Ray { origin, direction });
         let single = |(number, corners): (u32, &[Vec3; 3])| {
-            Some(RayHit { triangle: number, ..by_brute_force(std::slice::from_ref(corners), &ray)? })
+            let hit = on_one_triangle(corners, &ray).filter(|hit| hit.distance >= 0.0)?;
+            Some(RayHit { triangle: number, ..hit })
         };
         let mut expected: Vec<RayHit> = (0_u32..).zip(&triangles).filter_map(single).collect();
         // Those with odd numbers do not count.
@@ -195,39 +309,45 @@ proptest! {
         triangles in prop::collection::vec([vector(), vector(), vector()], 0..120),
         rays in prop::collection::vec((vector(), vector()), 20),
     ) {
-        let bvh = Bvh::new(&triangles);
-        for (origin, direction) in rays {
-            prop_assume!(direction != Vec3::ZERO);
-            let ray = Ray { origin, direction };
-            let expected = by_brute_force(&triangles, &ray);
-            prop_assert_eq!(bvh.nearest(&ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
-            prop_assert_eq!(bvh.occluded(&ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
-        }
+        let rays: Vec<Ray> = rays.into_iter().map(|(origin, direction)| Ray { origin, direction }).collect();
+        check_by_brute_force(&triangles, &rays);
     }
 
     #[test]
     fn a_tree_answers_as_a_look_at_every_triangle_far_from_the_origin(scene in far_scene()) {
-        let bvh = Bvh::new(&scene.triangles);
-        for ray in scene.rays.iter().filter(|ray| ray.direction != Vec3::ZERO) {
-            let expected = by_brute_force(&scene.triangles, ray);
-            prop_assert_eq!(bvh.nearest(ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
-            prop_assert_eq!(bvh.occluded(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
-        }
+        check_by_brute_force(&scene.triangles, &scene.rays);
     }
 
     #[test]
     fn a_tree_answers_as_a_look_at_every_triangle_for_all_numbers(scene in wild_scene()) {
-        let bvh = Bvh::new(&scene.triangles);
-        let usable: Vec<[Vec3; 3]> = scene.triangles.iter().map(|corners| {
-            if corners.iter().all(|corner| corner.is_finite()) { *corners } else { [Vec3::NAN; 3] }
-        }).collect();
-        for ray in &scene.rays {
-            let is_ray = ray.direction.is_finite() && ray.direction != Vec3::ZERO && ray.origin.is_finite();
-            let expected = if is_ray { by_brute_force(&usable, ray) } else { None };
-            let found = bvh.nearest(ray, 0.0..f32::INFINITY);
-            let of = |hit: Option<RayHit>| hit.map(|hit| (hit.triangle, hit.distance));
-            prop_assert_eq!(of(found), of(expected), "{:?}", ray);
-            prop_assert_eq!(bvh.occluded(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+        check_by_brute_force(&scene.triangles, &scene.rays);
+    }
+
+    #[test]
+    fn surroundings_hold_all_that_rays_into_hemispheres_hit(
+        scene in far_scene(), turns in prop::collection::vec(vector(), 8),
+    ) {
+        let Outlook { points, rays, distance } = outlook(&scene, &turns);
+        for level in levels() {
+            let bvh = Bvh { level, ..Bvh::new(&scene.triangles) };
+            let column = |side: usize, axis: usize| -> [f32; 8] {
+                std::array::from_fn(|lane| points.get(lane).map_or(0.0, |point| point[side][axis]))
+            };
+            let occluded: Vec<bool> = dispatch!(level, simd => {
+                let columns = |side: usize| [0, 1, 2].map(|axis| f32x8::simd_from(simd, column(side, axis)));
+                let hemispheres = Hemispheres {
+                    origin: columns(0), normal: columns(1), distance, active: (1 << points.len()) - 1,
+                };
+                let surroundings = bvh.surroundings(simd, &hemispheres);
+                let is_occluded = |ray: &Ray| {
+                    let ray = Rays::one(simd, ray, 0.0..distance);
+                    bvh.occluded_rays(simd, &ray, Some(&surroundings)) != 0
+                };
+                rays.iter().map(is_occluded).collect()
+            });
+            for (ray, occluded) in rays.iter().zip(occluded) {
+                prop_assert_eq!(occluded, bvh.occluded(ray, 0.0..distance), "{:?} {:?}", level, ray);
+            }
         }
     }
 
@@ -284,7 +404,7 @@ fn the_same_triangles_many_times_do_not_make_a_deep_tree() {
     assert_eq!(hit.triangle, 0, "the smallest number of equals");
 }
 
-/// Heaps of four triangles, numbered across, far apart along one axis: a leaf that held triangles of two heaps would
+/// Heaps of eight triangles, numbered across, far apart along one axis: a leaf that held triangles of two heaps would
 /// be met by all rays between them.
 #[test]
 fn leaves_hold_what_lies_together() {
@@ -300,12 +420,12 @@ fn leaves_hold_what_lies_together() {
             [Vec3::ZERO, Vec3::new(1.0, 0.5, 0.0), Vec3::new(0.0, 1.0, 0.5)]
                 .map(|corner| corner + offset(number))
         };
-        let triangles: Vec<[Vec3; 3]> = (0..4 * HEAPS).map(triangle).collect();
+        let triangles: Vec<[Vec3; 3]> = (0..8 * HEAPS).map(triangle).collect();
         let tree = Bvh::new(&triangles);
         let mut held = 0;
         for leaf in &tree.leaves {
             let numbers: Vec<u32> =
-                leaf.numbers.iter().copied().filter(|&number| number != u32::MAX).collect();
+                leaf.numbers.iter().copied().filter(|&number| number != Leaf::NONE).collect();
             held += numbers.len();
             let heap = |number: &u32| number * 13 % HEAPS;
             assert!(

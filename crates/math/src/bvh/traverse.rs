@@ -2,31 +2,13 @@
 
 use std::ops::Range;
 
-use glam::Vec3;
+use fearless_simd::{Simd, dispatch};
 
-use super::triangle::ShearedRay;
-use super::wide::{Child, Four, Inside, Node, WIDTH};
-use super::{Bvh, Ray, RayHit};
-
-/// The factor by which the far side of a box, and the end of the range, are moved away: the
-/// rounding of four operations, twice (Ize 2013, section 4).
-const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
-
-/// How far outside its box a triangle may be hit, as a fraction of the distance at which the ray leaves the
-/// whole tree.
-///
-/// The triangle test translates corners relative to the ray and shears them so that it runs along z, each in
-/// f32. For the coordinate x of a corner with the difference z along the ray, and a shear S of at most 1,
-/// that is `fl(fl(x − o) − fl(S · z))`, with errors of u·|x − o| and 2u·|S|·|z|, u being half of `EPSILON`;
-/// those of the last subtraction and of the products of edges are as if corners were scaled by 1 ± 3u.
-/// Scaling moves no corner to the ray's other side, so the ray misses the box at most by the error of
-/// |S|·|z|: less than 16u·|S|·|z|. Along the ray that is 16u times the distance of z, whatever the direction.
-/// Twice that is allowed for distances.
-const OUTSIDE: f32 = 16.0 * f32::EPSILON;
-
-/// How far outside its box a triangle may be hit on an axis because numbers underflow, as a distance on that axis: a
-/// product and its sum are off by half of the smallest number each. Four times that.
-const UNDERFLOW: f32 = f32::from_bits(4);
+use super::prepared::{PreparedRay, PreparedRays};
+use super::stack::{Entered, Stack};
+use super::surroundings::Surroundings;
+use super::wide::{Inside, Leaf, WIDTH};
+use super::{Bvh, Ray, RayHit, Rays};
 
 impl Bvh {
     /// The first hit of the ray within a range of distances; of equally near triangles the one with
@@ -45,182 +27,210 @@ impl Bvh {
         range: Range<f32>,
         mut counts: impl FnMut(&RayHit) -> bool,
     ) -> Option<RayHit> {
-        let mut nearest: Option<RayHit> = None;
-        let mut end = range.end;
-        self.visit(ray, range.start, &mut end, |hit, end| {
-            let order = |hit: RayHit| (hit.distance, hit.triangle);
-            if nearest.is_none_or(|best| order(hit) < order(best)) && counts(&hit) {
-                *end = hit.distance;
-                nearest = Some(hit);
-            }
-            false
-        });
-        nearest
+        let counts = &mut |_, hit: &RayHit| counts(hit);
+        dispatch!(self.level, simd => self.nearest_rays(simd, &Rays::one(simd, ray, range), counts)[0])
     }
 
     /// Whether the ray hits anything within a range of distances, excluding its end.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, range: Range<f32>) -> bool {
-        let mut found = false;
-        let mut end = range.end;
-        self.visit(ray, range.start, &mut end, |hit, end| {
-            found = hit.distance < *end;
-            found
-        });
-        found
+        dispatch!(self.level, simd => self.occluded_rays(simd, &Rays::one(simd, ray, range), None) != 0)
     }
 
-    /// An upper bound of distances along the ray to anything in the tree.
-    fn leaving(&self, ray: &ShearedRay) -> f32 {
-        let sides = self.nodes.last().map_or([0.0; 2], |root| root.sides[ray.axis()].map(|side| side[0]));
-        let [low, high] = sides.map(|side| ray.distance_along(side).abs());
-        low.max(high)
-    }
-
-    /// Calls `found` with the hits of the ray, in some order, until it stops the traversal; it may
-    /// move the end of the range.
-    #[inline(always)]
-    fn visit(&self, ray: &Ray, start: f32, end: &mut f32, mut found: impl FnMut(RayHit, &mut f32) -> bool) {
-        let possible = ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != Vec3::ZERO;
-        if self.nodes.is_empty() || !possible {
-            return;
-        }
-        let sheared = ShearedRay::new(ray);
-        let slabs = Slabs::new(ray, &sheared, self.leaving(&sheared) * OUTSIDE);
-        let mut waiting = Waiting::new(start, Child::node(self.nodes.len() - 1));
-        while let Some((near, child)) = waiting.pop() {
-            // A hit found meanwhile may be nearer.
-            if near > *end * WIDENED + slabs.outside {
-                continue;
-            }
-            match child.inside() {
-                Inside::Node(number) => {
-                    let node = &self.nodes[number];
-                    waiting.push(slabs.meet(node, start, *end * WIDENED), &node.children);
+    /// The first hit of each of eight rays, as [`nearest_of`](Self::nearest_of) finds them. `counts` gets the number of the
+    /// ray, too.
+    #[must_use]
+    pub fn nearest_rays<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        counts: &mut dyn FnMut(usize, &RayHit) -> bool,
+    ) -> [Option<RayHit>; WIDTH] {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let rays = PreparedRays::new(simd, self, rays);
+                let mut hits = [None; WIDTH];
+                let mut left = rays.possible;
+                while let Some(lane) = next_bit(&mut left) {
+                    let ray = PreparedRay::new(&rays, lane);
+                    hits[lane] = self.nearest_at(simd, &ray, &mut |hit| counts(lane, hit));
                 }
-                Inside::Leaf(number) => {
-                    let leaf = &self.leaves[number];
-                    let met = sheared.meet(&leaf.corners);
-                    for slot in 0..WIDTH {
-                        let distance = met.distances[slot];
-                        // False for NaN, which means a miss.
-                        if distance >= start && distance <= *end {
-                            let triangle = leaf.numbers[slot];
-                            let weights = met.weights.map(|weight| weight[slot]);
-                            if found(RayHit { distance, triangle, weights }, end) {
-                                return;
-                            }
-                        }
+                hits
+            },
+        )
+    }
+
+    /// Which of eight rays hit anything within their ranges, excluding the ends: one bit for each. Rays that start among
+    /// `surroundings` need not begin at the root.
+    #[must_use]
+    pub fn occluded_rays<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        surroundings: Option<&Surroundings>,
+    ) -> u32 {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let rays = PreparedRays::new(simd, self, rays);
+                let (mut left, mut occluded) = (rays.possible, 0);
+                while let Some(lane) = next_bit(&mut left) {
+                    let is_occluded = self.occluded_at(simd, &PreparedRay::new(&rays, lane), surroundings);
+                    occluded |= u32::from(is_occluded) << lane;
+                }
+                occluded
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn occluded_at<S: Simd>(&self, simd: S, ray: &PreparedRay, surroundings: Option<&Surroundings>) -> bool {
+        let mut stack = Stack::new(self.root);
+        let end = ray.widened_end(simd, ray.end);
+        match surroundings {
+            None => stack.push(self.root),
+            Some(surroundings) => {
+                for node in surroundings.nodes().iter().rev() {
+                    let mut entered = ray.boxes(simd, node, end).entered;
+                    while let Some(slot) = last_bit(&mut entered) {
+                        stack.push(node.children[slot]);
                     }
                 }
             }
         }
-    }
-}
-
-/// A ray prepared for box tests.
-struct Slabs {
-    origin: [f32; 3],
-    inverse: [f32; 3],
-    /// The same, widened: for the far sides.
-    wider: [f32; 3],
-    /// Which side of a box it hits first: 0 is the lower one.
-    first: [usize; 3],
-    /// How far along the ray a triangle may be hit outside its box.
-    outside: f32,
-}
-
-impl Slabs {
-    fn new(ray: &Ray, sheared: &ShearedRay, outside: f32) -> Self {
-        let direction = sheared.straightened(ray.direction);
-        let (inverse, is_straight) = (direction.recip(), direction.cmpeq(Vec3::ZERO));
-        // Where the ray runs straight its coordinate is exact, and in a box or not. A direction without a finite
-        // inverse decides nothing: NaN passes the test.
-        let has_inverse = inverse.is_finite_mask();
-        let slack = Vec3::select(has_inverse, inverse.abs(), Vec3::ZERO);
-        let outside = outside + slack.element_sum() * UNDERFLOW + f32::MIN_POSITIVE;
-        let inverse = Vec3::select(has_inverse | is_straight, inverse, Vec3::NAN);
-        let inverse = inverse.to_array();
-        Self {
-            origin: ray.origin.to_array(),
-            inverse,
-            wider: inverse.map(|inverse| inverse * WIDENED),
-            first: inverse.map(|inverse| usize::from(inverse < 0.0)),
-            outside,
-        }
-    }
-
-    /// Where the ray enters each of four boxes; NaN if it certainly misses the box within the
-    /// range.
-    #[inline(always)]
-    fn meet(&self, node: &Node, start: f32, end: f32) -> Four {
-        let (mut from, mut to) = ([start; WIDTH], [end; WIDTH]);
-        for axis in 0..3 {
-            let (origin, first) = (self.origin[axis], self.first[axis]);
-            let (near, far) = (&node.sides[axis][first], &node.sides[axis][1 - first]);
-            for slot in 0..WIDTH {
-                // A ray within a side of a box gives NaN, and passes the test.
-                let near = (near[slot] - origin) * self.inverse[axis];
-                from[slot] = if near > from[slot] { near } else { from[slot] };
-                let far = (far[slot] - origin) * self.wider[axis];
-                to[slot] = if far < to[slot] { far } else { to[slot] };
+        while let Some(mut child) = stack.pop() {
+            loop {
+                match child.inside() {
+                    Inside::Leaf(number) => {
+                        if self.is_hit(simd, ray, &self.leaves[number]) {
+                            return true;
+                        }
+                        break;
+                    }
+                    Inside::Node(number) => {
+                        stack.reserve();
+                        let node = &self.nodes[number];
+                        let mut entered = ray.boxes(simd, node, end).entered;
+                        // The largest box comes first: it is the likeliest to stop the ray (Ogaki and Derouet-Jourdan 2016).
+                        let Some(first) = next_bit(&mut entered) else { break };
+                        while let Some(slot) = last_bit(&mut entered) {
+                            stack.push(node.children[slot]);
+                        }
+                        child = node.children[first];
+                    }
+                }
             }
         }
-        let outside = self.outside;
-        std::array::from_fn(|slot| if from[slot] <= to[slot] + outside { from[slot] } else { f32::NAN })
-    }
-}
-
-/// Boxes to visit, the next one last.
-struct Waiting {
-    few: [(f32, Child); Self::FEW],
-    count: usize,
-    /// The entries below these, for lopsided trees.
-    more: Vec<(f32, Child)>,
-}
-
-impl Waiting {
-    /// A balanced tree over 2³² triangles has 16 levels, each of which leaves 3 boxes.
-    const FEW: usize = 64;
-
-    /// For a root, and where it is entered.
-    fn new(start: f32, root: Child) -> Self {
-        Self { few: [(start, root); Self::FEW], count: 1, more: Vec::new() }
+        false
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<(f32, Child)> {
-        if self.count == 0 {
-            return self.more.pop();
+    fn is_hit<S: Simd>(&self, simd: S, ray: &PreparedRay, leaf: &Leaf) -> bool {
+        let mut candidates = ray.sheared.candidates(simd, leaf);
+        while let Some(slot) = next_bit(&mut candidates) {
+            let counts = |distance: f32| distance >= ray.start && distance < ray.end;
+            if ray.sheared.crossing(leaf, slot).is_some_and(|found| counts(found.distance)) {
+                return true;
+            }
         }
-        self.count -= 1;
-        Some(self.few[self.count % Self::FEW])
+        false
     }
 
-    /// Adds the boxes that are entered somewhere, the nearest last.
     #[inline(always)]
-    fn push(&mut self, entered: Four, children: &[Child; WIDTH]) {
-        if self.count + WIDTH > Self::FEW {
-            self.spill();
+    fn nearest_at<S: Simd>(
+        &self,
+        simd: S,
+        ray: &PreparedRay,
+        counts: &mut dyn FnMut(&RayHit) -> bool,
+    ) -> Option<RayHit> {
+        let mut nearest = Nearest { hit: None, end: ray.end };
+        let root = Entered { near: ray.start, child: self.root };
+        let mut stack = Stack::new(root);
+        stack.push(root);
+        while let Some(Entered { near, mut child }) = stack.pop() {
+            // A hit found meanwhile may be nearer.
+            if ray.is_behind(near, nearest.end) {
+                continue;
+            }
+            loop {
+                match child.inside() {
+                    Inside::Leaf(number) => {
+                        nearest.look(simd, ray, &self.leaves[number], counts);
+                        break;
+                    }
+                    Inside::Node(number) => {
+                        stack.reserve();
+                        let node = &self.nodes[number];
+                        let boxes = ray.boxes(simd, node, ray.widened_end(simd, nearest.end));
+                        let mut entered = boxes.entered;
+                        let Some(first) = next_bit(&mut entered) else { break };
+                        child = node.children[first];
+                        if entered == 0 {
+                            continue;
+                        }
+                        let below = stack.count();
+                        stack.push(Entered { near: boxes.near[first], child });
+                        while let Some(slot) = next_bit(&mut entered) {
+                            let child = node.children[slot];
+                            stack.push_sorted(Entered { near: boxes.near[slot], child }, below);
+                        }
+                        break;
+                    }
+                }
+            }
         }
-        let first = self.count;
-        for slot in 0..WIDTH {
-            // Without branches: a box that is not entered is overwritten by the next.
-            self.few[self.count % Self::FEW] = (entered[slot], children[slot]);
-            self.count += usize::from(!entered[slot].is_nan());
-        }
-        for end in first + 1..self.count {
-            let mut slot = end % Self::FEW;
-            while slot > first && self.few[slot - 1].0 < self.few[slot].0 {
-                self.few.swap(slot - 1, slot);
-                slot -= 1;
+        nearest.hit
+    }
+}
+
+/// The nearest hit so far.
+struct Nearest {
+    hit: Option<RayHit>,
+    /// Its distance, or the end of the range.
+    end: f32,
+}
+
+impl Nearest {
+    /// Looks at the triangles of a leaf.
+    #[inline(always)]
+    fn look<S: Simd>(
+        &mut self,
+        simd: S,
+        ray: &PreparedRay,
+        leaf: &Leaf,
+        counts: &mut dyn FnMut(&RayHit) -> bool,
+    ) {
+        let mut candidates = ray.sheared.candidates(simd, leaf);
+        while let Some(slot) = next_bit(&mut candidates) {
+            let Some(found) = ray.sheared.crossing(leaf, slot) else { continue };
+            let (distance, triangle) = (found.distance, leaf.numbers[slot]);
+            let is_nearer = |best: RayHit| (distance, triangle) < (best.distance, best.triangle);
+            if distance >= ray.start && distance <= self.end && self.hit.is_none_or(is_nearer) {
+                let hit = RayHit { distance, triangle, weights: found.weights() };
+                if counts(&hit) {
+                    (self.hit, self.end) = (Some(hit), distance);
+                }
             }
         }
     }
+}
 
-    #[cold]
-    fn spill(&mut self) {
-        self.more.extend_from_slice(&self.few[..self.count]);
-        self.count = 0;
+/// Takes the lowest bit.
+#[inline(always)]
+pub(super) fn next_bit(bits: &mut u32) -> Option<usize> {
+    let bit = bits.trailing_zeros();
+    if *bits == 0 {
+        return None;
     }
+    *bits &= *bits - 1;
+    Some(bit as usize % WIDTH)
+}
+
+/// Takes the highest bit.
+#[inline(always)]
+fn last_bit(bits: &mut u32) -> Option<usize> {
+    let bit = bits.checked_ilog2()?;
+    *bits ^= 1 << bit;
+    Some(bit as usize % WIDTH)
 }

@@ -1,19 +1,19 @@
-//! The tree as rays traverse it: boxes and triangles in groups of four, component by component. Lanes are plain
-//! arrays: the compiler vectorizes them, and the results are the same as one by one.
+//! The tree as rays traverse it: boxes and triangles in groups of eight, component by component.
 
 use glam::Vec3;
 
 /// Boxes of a node, and triangles of a leaf.
-pub(super) const WIDTH: usize = 4;
+pub(super) const WIDTH: usize = 8;
 
 /// One number for each element of a group.
-pub(super) type Four = [f32; WIDTH];
+pub(super) type Eight = [f32; WIDTH];
 
-/// Up to four boxes and their contents.
+/// Up to eight boxes and their contents.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(super) struct Node {
     /// By axis, then the lower and the upper side.
-    pub(super) sides: [[Four; 2]; 3],
+    pub(super) sides: [[Eight; 2]; 3],
     pub(super) children: [Child; WIDTH],
 }
 
@@ -27,12 +27,13 @@ pub(super) enum Inside {
     Leaf(usize),
 }
 
-/// Up to four triangles.
+/// Up to eight triangles.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(super) struct Leaf {
     /// By corner, then axis.
-    pub(super) corners: [[Four; 3]; 3],
-    /// The numbers of the triangles.
+    pub(super) corners: [[Eight; 3]; 3],
+    /// The numbers of the triangles; [`Leaf::NONE`] after the last.
     pub(super) numbers: [u32; WIDTH],
 }
 
@@ -47,6 +48,15 @@ impl Child {
         Self(number as u32 | Self::LEAF)
     }
 
+    /// The same, with that many nodes and leaves before it.
+    pub(super) fn moved(self, nodes: usize, leaves: usize) -> Self {
+        match self.inside() {
+            Inside::Node(number) => Self::node(number + nodes),
+            Inside::Leaf(number) => Self::leaf(number + leaves),
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn inside(self) -> Inside {
         let number = (self.0 & !Self::LEAF) as usize;
         if self.0 & Self::LEAF != 0 { Inside::Leaf(number) } else { Inside::Node(number) }
@@ -70,9 +80,11 @@ impl Node {
 }
 
 impl Leaf {
-    /// Entries beyond the triangles hold NaN, and no ray hits them.
+    /// The number of an entry without a triangle.
+    pub(super) const NONE: u32 = u32::MAX;
+
     pub(super) fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>) -> Self {
-        let mut leaf = Self { corners: [[[f32::NAN; WIDTH]; 3]; 3], numbers: [u32::MAX; WIDTH] };
+        let mut leaf = Self { corners: [[[f32::NAN; WIDTH]; 3]; 3], numbers: [Self::NONE; WIDTH] };
         for (slot, (number, corners)) in triangles.take(WIDTH).enumerate() {
             leaf.numbers[slot] = number;
             for (of_all, corner) in leaf.corners.iter_mut().zip(corners) {

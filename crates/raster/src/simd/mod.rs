@@ -12,6 +12,7 @@ pub use lanes::{InlineMap, inlined, lanes_of};
 pub(crate) use lanes::{Row, append, channels, colors_of, transpose, transposed, unzipped};
 pub use level::{SimdLevel, SimdLevelError};
 pub(crate) use level::{Token, at_level};
+pub use trigon_math::simd::{greater, lesser};
 
 use fearless_simd::prelude::*;
 
@@ -26,35 +27,6 @@ pub type I32<S> = fearless_simd::i32x8<S>;
 pub type U32<S> = fearless_simd::u32x8<S>;
 /// Eight truth values.
 pub type Mask<S> = fearless_simd::mask32x8<S>;
-
-/// The smaller of two; the second where they are equal or one is no number.
-/// (`min` leaves the sign of zero and the fate of a NaN to the machine: where that
-/// is x86, it does just this.)
-#[inline(always)]
-pub fn lesser<S: Simd>(a: F32<S>, b: F32<S>) -> F32<S> {
-    if is_x86(a.token()) { a.min(b) } else { a.simd_lt(b).select(a, b) }
-}
-
-/// The larger of two; the second where they are equal or one is no number.
-#[inline(always)]
-pub fn greater<S: Simd>(a: F32<S>, b: F32<S>) -> F32<S> {
-    if is_x86(a.token()) { a.max(b) } else { a.simd_gt(b).select(a, b) }
-}
-
-/// Whether a level runs x86's own instructions; known when it is compiled.
-#[inline(always)]
-fn is_x86<S: Simd>(simd: S) -> bool {
-    #[cfg(target_arch = "x86_64")]
-    return matches!(
-        simd.level(),
-        fearless_simd::Level::Sse2(_) | fearless_simd::Level::Avx2(_) | fearless_simd::Level::Avx512(_)
-    );
-    #[cfg(not(target_arch = "x86_64"))]
-    {
-        let _ = simd;
-        false
-    }
-}
 
 /// Whether a level runs AVX-512; known when it is compiled.
 #[inline(always)]

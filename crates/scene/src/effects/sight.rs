@@ -103,12 +103,11 @@ impl LightingEnvironment {
                 || [F32::splat(simd, 0.0); 3],
             );
         };
-        let directions = simd.vectorize(
+        let [[ox, oy, oz], [x, y, z]] = simd.vectorize(
             #[inline(always)]
-            || normalized(directions),
+            || [rows(rays.origins(simd, points)), rows(turned(&rays.turn(), normalized(directions)))],
         );
         let scene = TracedScene { lighting: self, rays };
-        let [x, y, z] = rays.turned_rows(simd, directions);
         let mut media = Media::default();
         let far = match start {
             SightStart::AtMirror => FarLight::MetalStudio,
@@ -119,7 +118,7 @@ impl LightingEnvironment {
             }
         };
         let mut walk = Walk {
-            origins: rays.origins(simd, points),
+            origins: lanes_of(|lane| Vec3::new(ox[lane], oy[lane], oz[lane])),
             directions: lanes_of(|lane| Vec3::new(x[lane], y[lane], z[lane])),
             weights: [Vec3::ONE; LANES],
             light: [Vec3::ZERO; LANES],
@@ -128,7 +127,7 @@ impl LightingEnvironment {
             media: [media; LANES],
         };
         for _ in 0..self.bounces {
-            let met = lanes_of(|lane| walk.alive[lane].then(|| walk.met(lane, rays)).flatten());
+            let met = walk.met(simd, rays);
             let cast = walk.alive.iter().filter(|&&alive| alive).count();
             if cast == 0 {
                 break;
@@ -209,9 +208,12 @@ impl Walk {
         Ray { origin: self.origins[lane], direction: self.directions[lane] }
     }
 
-    /// The next surface. A ray that comes straight from the eye passes the same gaps as the eye.
-    fn met(&self, lane: usize, rays: &RayScene) -> Option<SurfaceHit> {
-        rays.met(&self.ray(lane), self.far[lane] == FarLight::Backdrop)
+    /// The next surfaces. A ray that comes straight from the eye passes the same gaps as the eye.
+    fn met<S: Simd>(&self, simd: S, rays: &RayScene) -> [Option<SurfaceHit>; LANES] {
+        let bits =
+            |is: &dyn Fn(usize) -> bool| (0..LANES).fold(0, |bits, lane| bits | u32::from(is(lane)) << lane);
+        let passes_gaps = bits(&|lane| self.far[lane] == FarLight::Backdrop);
+        rays.met(simd, [&self.origins, &self.directions], bits(&|lane| self.alive[lane]), passes_gaps)
     }
 
     /// A ray that hits nothing more.

@@ -13,12 +13,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use surface_hit::CasterSurfaces;
 use trigon_math::glam::Affine3;
-use trigon_math::{Bvh, DAffine3, DVec3, Ray, Vec3};
+use trigon_math::{Bvh, DAffine3, DVec3, Ray, Rays, Vec3};
 use trigon_raster::simd::prelude::*;
-use trigon_raster::simd::{F32, InlineMap, LANES, Simd, lanes_of};
+use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, greater};
 
 use super::casters::{Casters, ShadowSource};
-use crate::lanes::{V3, moved, turned};
+use crate::lanes::{V3, difference, dot, moved, scaled, splat, sum, turned};
 use crate::lighting::{Arriving, Lamp, LampSource, LitPoints};
 use crate::scene::Scene;
 use crate::work::{Work, note};
@@ -90,23 +90,45 @@ impl RayScene {
         Self { triangles, to_scene, from_scene, cast: Default::default() }
     }
 
-    /// The first hit of a ray, if appearances are known. A ray with the eyes of the camera passes
-    /// what these see through.
-    pub(super) fn met(&self, ray: &Ray, passes_gaps: bool) -> Option<SurfaceHit> {
+    /// The first hits of eight rays, if appearances are known. A ray with the eyes of the camera passes what these see
+    /// through. Both sets have a bit for each ray.
+    pub(super) fn met<S: Simd>(
+        &self,
+        simd: S,
+        [origins, directions]: [&[Vec3; LANES]; 2],
+        mut active: u32,
+        passes_gaps: u32,
+    ) -> [Option<SurfaceHit>; LANES] {
         /// The maximum number of gaps in a row.
         const MOST_GAPS: usize = 64;
+        let mut met = [None; LANES];
         note(Work::SightRay);
-        let surfaces = self.triangles.surfaces.as_ref()?;
-        let mut start = 0.0_f32;
+        let Some(surfaces) = &self.triangles.surfaces else { return met };
+        let mut start = [0.0; LANES];
         for _ in 0..MOST_GAPS {
-            let hit = self.triangles.bvh.nearest(ray, start..f32::INFINITY)?;
-            let found = surfaces.at(&hit, ray);
-            if !(found.is_gap && passes_gaps) {
-                return Some(found);
+            if active == 0 {
+                break;
             }
-            start = hit.distance.next_up();
+            let (origin, direction) = (columns(simd, origins), columns(simd, directions));
+            let [start_at, end] = [F32::simd_from(simd, start), F32::splat(simd, f32::INFINITY)];
+            let rays = Rays { origin, direction, start: start_at, end, active };
+            let hits = self.triangles.bvh.nearest_rays(simd, &rays, &mut |_, _| true);
+            for lane in 0..LANES {
+                let Some(hit) = hits[lane] else {
+                    active &= !(1 << lane);
+                    continue;
+                };
+                let ray = Ray { origin: origins[lane], direction: directions[lane] };
+                let found = surfaces.at(&hit, &ray);
+                if found.is_gap && passes_gaps >> lane & 1 != 0 {
+                    start[lane] = hit.distance.next_up();
+                } else {
+                    met[lane] = Some(found);
+                    active &= !(1 << lane);
+                }
+            }
         }
-        None
+        met
     }
 
     /// The glass of a slot of a node, with what is beneath it.
@@ -124,6 +146,7 @@ impl RayScene {
     }
 
     /// 1 where a lamp's light arrives, otherwise 0.
+    #[inline(always)]
     pub(crate) fn lit<S: Simd>(
         &self,
         simd: S,
@@ -131,29 +154,26 @@ impl RayScene {
         points: &LitPoints<S>,
         arriving: &Arriving<S>,
     ) -> F32<S> {
-        let origins = self.origins(simd, points);
-        let [x, y, z] = self.turned_rows(simd, arriving.towards);
-        let wanted: [f32; LANES] = arriving.share.into();
-        let reach: [f32; LANES] = match lamp.source {
-            LampSource::Directional(_) => [f32::INFINITY; LANES],
+        let zero = F32::splat(simd, 0.0);
+        let (origin, direction) = (self.origins(simd, points), turned(&self.turn(), arriving.towards));
+        let reach = match lamp.source {
+            LampSource::Directional(_) => F32::splat(simd, f32::INFINITY),
             LampSource::Point { position, .. } => {
-                let lamp = self.to_scene.transform_point3(position);
-                lanes_of(|lane| (lamp - origins[lane]).length())
+                let lamp = difference(splat(simd, self.to_scene.transform_point3(position)), origin);
+                dot(lamp, lamp).sqrt()
             }
         };
-        let mut cast = 0;
-        let lit = lanes_of(|lane| {
-            let direction = Vec3::new(x[lane], y[lane], z[lane]);
-            if wanted[lane] <= 0.0 || direction == Vec3::ZERO {
-                return 0.0;
-            }
-            cast += 1;
+        let is_turned = !(direction[0].simd_eq(0.0) & direction[1].simd_eq(0.0) & direction[2].simd_eq(0.0));
+        let asked = !arriving.share.simd_le(0.0) & is_turned;
+        let active = asked.to_bitmask() as u32;
+        if active != 0 {
             note(Work::ShadowRay);
-            let ray = Ray { origin: origins[lane], direction };
-            if self.triangles.bvh.occluded(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
-        });
-        self.cast[0].fetch_add(cast, Ordering::Relaxed);
-        F32::simd_from(simd, lit)
+        }
+        self.cast[0].fetch_add(active.count_ones().into(), Ordering::Relaxed);
+        let rays = Rays { origin, direction, start: zero, end: reach, active };
+        let occluded = self.triangles.bvh.occluded_rays(simd, &rays, None);
+        let lit = Mask::from_bitmask(simd, u64::from(active & !occluded));
+        lit.select(F32::splat(simd, 1.0), zero)
     }
 
     /// From camera directions to the triangles'.
@@ -161,35 +181,35 @@ impl RayScene {
         self.to_scene.matrix3
     }
 
-    /// Camera directions as the triangles have them.
-    pub(super) fn turned_rows<S: Simd>(&self, simd: S, directions: V3<S>) -> [[f32; LANES]; 3] {
-        simd.vectorize(
-            #[inline(always)]
-            || rows(turned(&self.turn(), directions)),
-        )
-    }
-
     /// The start of rays: off the surface by the possible rounding error.
-    pub(super) fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
-        let [x, y, z] = simd.vectorize(
-            #[inline(always)]
-            || rows(moved(&self.to_scene, points.position)),
-        );
-        let [nx, ny, nz] = self.turned_rows(simd, points.facing);
-        lanes_of(|lane| {
-            let side = Vec3::new(nx[lane], ny[lane], nz[lane]);
-            self.off(Vec3::new(x[lane], y[lane], z[lane]), side)
-        })
+    #[inline(always)]
+    pub(super) fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> V3<S> {
+        let at = moved(&self.to_scene, points.position);
+        let side = turned(&self.turn(), points.facing);
+        let largest = greater(greater(at[0].abs(), at[1].abs()), at[2].abs());
+        let reach = F32::splat(simd, self.triangles.reach);
+        sum(at, scaled(side, greater(largest, reach) * OFF))
     }
 
     /// A point next to a surface, on the side to which a unit vector points.
     pub(super) fn off(&self, at: Vec3, side: Vec3) -> Vec3 {
-        /// In units in the last place of the largest coordinate.
-        const OFF: f32 = 64.0 * f32::EPSILON;
         let largest = at.abs().max_element();
         let largest = if largest > self.triangles.reach { largest } else { self.triangles.reach };
         at + side * (largest * OFF)
     }
+}
+
+/// How far rays start off a surface, in units in the last place of the largest coordinate.
+const OFF: f32 = 64.0 * f32::EPSILON;
+
+/// Eight vectors, component by component.
+#[inline(always)]
+pub(super) fn columns<S: Simd>(simd: S, vectors: &[Vec3; LANES]) -> V3<S> {
+    let [mut x, mut y, mut z] = [[0.0; LANES]; 3];
+    for (lane, vector) in vectors.iter().enumerate() {
+        (x[lane], y[lane], z[lane]) = (vector.x, vector.y, vector.z);
+    }
+    [F32::simd_from(simd, x), F32::simd_from(simd, y), F32::simd_from(simd, z)]
 }
 
 #[inline(always)]

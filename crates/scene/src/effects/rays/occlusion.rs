@@ -8,11 +8,12 @@
 use crate::work::{Work, note};
 use std::sync::atomic::Ordering;
 
-use trigon_math::{Ray, Vec2, Vec3, elementary};
-use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
+use trigon_math::{Hemispheres, Rays, Vec2, Vec3, elementary};
+use trigon_raster::simd::{F32, LANES, Mask, Simd, prelude::*};
 
-use super::RayScene;
+use super::{RayScene, columns, rows};
 use crate::effect_settings::AmbientOcclusion;
+use crate::lanes::{V3, scaled, sum, turned};
 use crate::lighting::LitPoints;
 
 /// The maximum number of rays per pixel.
@@ -59,34 +60,53 @@ impl AmbientRays {
         simd: S,
         scene: &RayScene,
         points: &LitPoints<S>,
-        [x, y]: [F32<S>; 2],
+        pixels: [F32<S>; 2],
         active: u64,
     ) -> F32<S> {
-        let origins = scene.origins(simd, points);
-        let [nx, ny, nz] = scene.turned_rows(simd, points.facing);
-        let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
-        let mut cast = 0;
-        let open = lanes_of(|lane| {
-            let normal = Vec3::new(nx[lane], ny[lane], nz[lane]);
-            if active >> lane & 1 == 0 || normal == Vec3::ZERO {
-                return 1.0;
-            }
-            cast += self.directions.len() as u64;
-            let turn = self.turns[(y[lane] as usize % 4) * 4 + x[lane] as usize % 4];
-            self.share(scene, origins[lane], normal, turn)
-        });
-        scene.cast[1].fetch_add(cast, Ordering::Relaxed);
-        F32::simd_from(simd, open)
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let normal = turned(&scene.turn(), points.facing);
+                let is_turned = !(normal[0].simd_eq(0.0) & normal[1].simd_eq(0.0) & normal[2].simd_eq(0.0));
+                let active = is_turned.to_bitmask() as u32 & active as u32;
+                let origin = scene.origins(simd, points);
+                let surroundings = Hemispheres { origin, normal, distance: self.distance, active };
+                let surroundings = scene.triangles.bvh.surroundings(simd, &surroundings);
+                let [zero, one] = [F32::splat(simd, 0.0), F32::splat(simd, 1.0)];
+                if active == 0 || surroundings.is_empty() {
+                    return one;
+                }
+                let [right, up] = self.frames(simd, normal, pixels);
+                let (start, end) = (zero, F32::splat(simd, self.distance));
+                let mut open = zero;
+                for along in &self.directions {
+                    let flat =
+                        sum(scaled(right, F32::splat(simd, along.x)), scaled(up, F32::splat(simd, along.y)));
+                    let direction = sum(flat, scaled(normal, F32::splat(simd, along.z)));
+                    let rays = Rays { origin, direction, start, end, active };
+                    let occluded = scene.triangles.bvh.occluded_rays(simd, &rays, Some(&surroundings));
+                    open += Mask::from_bitmask(simd, u64::from(occluded)).select(zero, one);
+                }
+                note(Work::OcclusionRay);
+                let cast = u64::from(active.count_ones()) * self.directions.len() as u64;
+                scene.cast[1].fetch_add(cast, Ordering::Relaxed);
+                open / self.directions.len() as f32
+            },
+        )
     }
 
-    fn share(&self, scene: &RayScene, origin: Vec3, normal: Vec3, turn: Vec2) -> f32 {
-        let (tangent, bitangent) = normal.any_orthonormal_pair();
-        let [right, up] = [tangent * turn.x + bitangent * turn.y, bitangent * turn.x - tangent * turn.y];
-        let leaves = |direction: &&Vec3| {
-            let direction = right * direction.x + up * direction.y + normal * direction.z;
-            note(Work::OcclusionRay);
-            !scene.triangles.bvh.occluded(&Ray { origin, direction }, 0.0..self.distance)
-        };
-        self.directions.iter().filter(leaves).count() as f32 / self.directions.len() as f32
+    /// Two unit vectors along eight surfaces, turned as the positions of the pixels say.
+    #[inline(always)]
+    fn frames<S: Simd>(&self, simd: S, normal: V3<S>, [x, y]: [F32<S>; 2]) -> [V3<S>; 2] {
+        let [nx, ny, nz] = rows(normal);
+        let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
+        let (mut right, mut up) = ([Vec3::ZERO; LANES], [Vec3::ZERO; LANES]);
+        for lane in 0..LANES {
+            let turn = self.turns[(y[lane] as usize % 4) * 4 + x[lane] as usize % 4];
+            let (tangent, bitangent) = Vec3::new(nx[lane], ny[lane], nz[lane]).any_orthonormal_pair();
+            right[lane] = tangent * turn.x + bitangent * turn.y;
+            up[lane] = bitangent * turn.x - tangent * turn.y;
+        }
+        [columns(simd, &right), columns(simd, &up)]
     }
 }
