@@ -9,7 +9,9 @@
 //! own rounding (T. Ize, "Robust BVH Ray Traversal", 2013), so that the tree gives the same results as testing every
 //! triangle, at every SIMD level.
 
+mod bits;
 mod build;
+mod packet;
 mod prepared;
 mod ray;
 mod stack;

@@ -10,7 +10,7 @@ use crate::simd::{greater, lesser};
 
 /// The factor by which the far side of a box, and the end of the range, are moved away: the
 /// rounding of four operations, twice (Ize 2013, section 4).
-const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
+pub(super) const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 /// How far outside its box a triangle may be hit, as a fraction of the distance at which the ray leaves the
 /// whole tree.
@@ -49,21 +49,23 @@ pub(super) struct PreparedRays {
     pub(super) origin: [Eight; 3],
     /// Of the directions: infinite on axes on which a ray is taken to run straight, and NaN, which decides nothing, where
     /// it is beyond all numbers.
-    inverse: [Eight; 3],
+    pub(super) inverse: [Eight; 3],
     /// The same, widened: for the far sides.
-    wider: [Eight; 3],
+    pub(super) wider: [Eight; 3],
     /// By axis, the direction divided by that along the fastest axis.
     pub(super) shear: [Eight; 3],
     /// Of the direction along the fastest axis.
     pub(super) inverse_speed: Eight,
     /// How far along each ray a triangle may be hit outside its box.
-    outside: Eight,
-    start: Eight,
-    end: Eight,
+    pub(super) outside: Eight,
+    pub(super) start: Eight,
+    pub(super) end: Eight,
     /// Numbers of [`ORDERS`].
     orders: [u32; WIDTH],
     /// By axis, one bit for each ray that hits the upper side of a box first.
-    downwards: [u32; 3],
+    pub(super) downwards: [u32; 3],
+    /// One bit for each ray whose inverse has a NaN.
+    pub(super) without_inverse: u32,
     /// One bit for each ray that is cast and can hit anything.
     pub(super) possible: u32,
 }
@@ -119,6 +121,7 @@ impl PreparedRays {
             ],
             start: rays.start.into(),
             end: rays.end.into(),
+            without_inverse: (is_nan(inverse_x) | is_nan(inverse_y) | is_nan(inverse_z)).to_bitmask() as u32,
             possible: possible.to_bitmask() as u32 & rays.active,
         }
     }
@@ -160,6 +163,11 @@ fn is_normal<S: Simd>(simd: S, value: f32x8<S>) -> mask32x8<S> {
     value.simd_ge(f32x8::splat(simd, f32::MIN_POSITIVE)) & value.simd_lt(f32x8::splat(simd, f32::INFINITY))
 }
 
+#[inline(always)]
+fn is_nan<S: Simd>(value: f32x8<S>) -> mask32x8<S> {
+    !value.simd_eq(value)
+}
+
 /// The inverse of a direction, and its absolute value where it is finite.
 #[inline(always)]
 fn inverse<S: Simd>(simd: S, direction: f32x8<S>, is_normal: mask32x8<S>) -> [f32x8<S>; 2] {
@@ -187,10 +195,6 @@ pub(super) struct PreparedRay {
     /// Which side of a box it hits first: 0 is the lower one.
     first: [u32; 3],
     outside: f32,
-    /// The least distance that counts.
-    pub(super) start: f32,
-    /// The greatest.
-    pub(super) end: f32,
 }
 
 /// Eight boxes that a ray may enter.
@@ -214,8 +218,6 @@ impl PreparedRay {
             wider: of(&rays.wider),
             first: [x >> lane & 1, y >> lane & 1, z >> lane & 1],
             outside: rays.outside[lane],
-            start: rays.start[lane],
-            end: rays.end[lane],
         }
     }
 
@@ -234,7 +236,7 @@ impl PreparedRay {
     /// The boxes of a node that it enters before the widened end.
     #[inline(always)]
     pub(super) fn boxes<S: Simd>(&self, simd: S, node: &Node, end: f32x8<S>) -> Boxes {
-        let (mut from, mut to) = (f32x8::splat(simd, self.start), end);
+        let (mut from, mut to) = (f32x8::splat(simd, self.sheared.start), end);
         for axis in 0..3 {
             let (origin, first) = (self.origin[axis], self.first[axis] as usize);
             let [near, far] = [&node.sides[axis][first & 1], &node.sides[axis][(first ^ 1) & 1]];

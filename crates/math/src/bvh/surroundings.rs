@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
 
 use super::Bvh;
-use super::traverse::next_bit;
+use super::bits::next_bit;
 use super::wide::{Eight, Inside, Leaf, Node, WIDTH};
 use crate::simd::greater;
 

@@ -4,10 +4,13 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, dispatch};
 
+use super::bits::{last_bit, next_bit};
+use super::packet::Packet;
 use super::prepared::{PreparedRay, PreparedRays};
 use super::stack::{Entered, Stack};
 use super::surroundings::Surroundings;
-use super::wide::{Inside, Leaf, WIDTH};
+use super::triangle::ShearedRay;
+use super::wide::{Child, Inside, Leaf, WIDTH};
 use super::{Bvh, Ray, RayHit, Rays};
 
 impl Bvh {
@@ -74,9 +77,19 @@ impl Bvh {
             #[inline(always)]
             || {
                 let rays = PreparedRays::new(simd, self, rays);
+                // Rays into a hemisphere run in all directions.
+                if surroundings.is_none()
+                    && let Some(packet) = Packet::new(simd, &rays)
+                {
+                    return self.occluded_packet(simd, &packet);
+                }
                 let (mut left, mut occluded) = (rays.possible, 0);
                 while let Some(lane) = next_bit(&mut left) {
-                    let is_occluded = self.occluded_at(simd, &PreparedRay::new(&rays, lane), surroundings);
+                    let ray = PreparedRay::new(&rays, lane);
+                    let is_occluded = match surroundings {
+                        Some(surroundings) => self.occluded_among(simd, &ray, surroundings),
+                        None => self.occluded_below(simd, &ray, self.root),
+                    };
                     occluded |= u32::from(is_occluded) << lane;
                 }
                 occluded
@@ -84,26 +97,35 @@ impl Bvh {
         )
     }
 
+    /// Whether a ray hits anything in a part of the tree.
     #[inline(always)]
-    fn occluded_at<S: Simd>(&self, simd: S, ray: &PreparedRay, surroundings: Option<&Surroundings>) -> bool {
+    pub(super) fn occluded_below<S: Simd>(&self, simd: S, ray: &PreparedRay, root: Child) -> bool {
+        let mut stack = Stack::new(root);
+        stack.push(root);
+        self.occluded_in(simd, ray, &mut stack)
+    }
+
+    #[inline(always)]
+    fn occluded_among<S: Simd>(&self, simd: S, ray: &PreparedRay, surroundings: &Surroundings) -> bool {
         let mut stack = Stack::new(self.root);
-        let end = ray.widened_end(simd, ray.end);
-        match surroundings {
-            None => stack.push(self.root),
-            Some(surroundings) => {
-                for node in surroundings.nodes().iter().rev() {
-                    let mut entered = ray.boxes(simd, node, end).entered;
-                    while let Some(slot) = last_bit(&mut entered) {
-                        stack.push(node.children[slot]);
-                    }
-                }
+        let end = ray.widened_end(simd, ray.sheared.end);
+        for node in surroundings.nodes().iter().rev() {
+            let mut entered = ray.boxes(simd, node, end).entered;
+            while let Some(slot) = last_bit(&mut entered) {
+                stack.push(node.children[slot]);
             }
         }
+        self.occluded_in(simd, ray, &mut stack)
+    }
+
+    #[inline(always)]
+    fn occluded_in<S: Simd>(&self, simd: S, ray: &PreparedRay, stack: &mut Stack<Child>) -> bool {
+        let end = ray.widened_end(simd, ray.sheared.end);
         while let Some(mut child) = stack.pop() {
             loop {
                 match child.inside() {
                     Inside::Leaf(number) => {
-                        if self.is_hit(simd, ray, &self.leaves[number]) {
+                        if self.is_hit(simd, &ray.sheared, &self.leaves[number]) {
                             return true;
                         }
                         break;
@@ -125,12 +147,13 @@ impl Bvh {
         false
     }
 
+    /// Whether a ray hits a triangle of a leaf.
     #[inline(always)]
-    fn is_hit<S: Simd>(&self, simd: S, ray: &PreparedRay, leaf: &Leaf) -> bool {
-        let mut candidates = ray.sheared.candidates(simd, leaf);
+    pub(super) fn is_hit<S: Simd>(&self, simd: S, ray: &ShearedRay, leaf: &Leaf) -> bool {
+        let mut candidates = ray.candidates(simd, leaf);
         while let Some(slot) = next_bit(&mut candidates) {
             let counts = |distance: f32| distance >= ray.start && distance < ray.end;
-            if ray.sheared.crossing(leaf, slot).is_some_and(|found| counts(found.distance)) {
+            if ray.crossing(leaf, slot).is_some_and(|found| counts(found.distance)) {
                 return true;
             }
         }
@@ -144,8 +167,8 @@ impl Bvh {
         ray: &PreparedRay,
         counts: &mut dyn FnMut(&RayHit) -> bool,
     ) -> Option<RayHit> {
-        let mut nearest = Nearest { hit: None, end: ray.end };
-        let root = Entered { near: ray.start, child: self.root };
+        let mut nearest = Nearest { hit: None, end: ray.sheared.end };
+        let root = Entered { near: ray.sheared.start, child: self.root };
         let mut stack = Stack::new(root);
         stack.push(root);
         while let Some(Entered { near, mut child }) = stack.pop() {
@@ -206,7 +229,7 @@ impl Nearest {
             let Some(found) = ray.sheared.crossing(leaf, slot) else { continue };
             let (distance, triangle) = (found.distance, leaf.numbers[slot]);
             let is_nearer = |best: RayHit| (distance, triangle) < (best.distance, best.triangle);
-            if distance >= ray.start && distance <= self.end && self.hit.is_none_or(is_nearer) {
+            if distance >= ray.sheared.start && distance <= self.end && self.hit.is_none_or(is_nearer) {
                 let hit = RayHit { distance, triangle, weights: found.weights() };
                 if counts(&hit) {
                     (self.hit, self.end) = (Some(hit), distance);
@@ -214,23 +237,4 @@ impl Nearest {
             }
         }
     }
-}
-
-/// Takes the lowest bit.
-#[inline(always)]
-pub(super) fn next_bit(bits: &mut u32) -> Option<usize> {
-    let bit = bits.trailing_zeros();
-    if *bits == 0 {
-        return None;
-    }
-    *bits &= *bits - 1;
-    Some(bit as usize % WIDTH)
-}
-
-/// Takes the highest bit.
-#[inline(always)]
-fn last_bit(bits: &mut u32) -> Option<usize> {
-    let bit = bits.checked_ilog2()?;
-    *bits ^= 1 << bit;
-    Some(bit as usize % WIDTH)
 }

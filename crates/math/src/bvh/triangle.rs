@@ -32,6 +32,10 @@ pub(super) struct ShearedRay {
     shear: [f32; 2],
     /// Of the direction along the last axis.
     inverse_speed: f32,
+    /// The least distance that counts.
+    pub(super) start: f32,
+    /// The greatest.
+    pub(super) end: f32,
 }
 
 impl ShearedRay {
@@ -45,6 +49,8 @@ impl ShearedRay {
             axes,
             shear: [rays.shear[x][lane], rays.shear[y][lane]],
             inverse_speed: rays.inverse_speed[lane],
+            start: rays.start[lane],
+            end: rays.end[lane],
         }
     }
 
