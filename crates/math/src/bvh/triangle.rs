@@ -17,7 +17,8 @@ impl Crossing {
     /// Barycentrics of the three corners.
     pub(super) fn weights(&self) -> [f32; 3] {
         let sum: f64 = self.edges[0] + self.edges[1] + self.edges[2];
-        self.edges.map(|edge| (edge / sum) as f32)
+        let [u, v, w] = self.edges;
+        [(u / sum) as f32, (v / sum) as f32, (w / sum) as f32]
     }
 }
 
@@ -72,10 +73,9 @@ impl ShearedRay {
     /// rounding even if the triangle is seen from its edge.
     #[inline(always)]
     pub(super) fn crossing(&self, leaf: &Leaf, slot: usize) -> Option<Crossing> {
-        let [a, b, c] = [0, 1, 2].map(
-            #[inline(always)]
-            |corner: usize| self.sheared_corner(&leaf.corners[corner], slot),
-        );
+        let [a, b, c] = &leaf.corners;
+        // No `map`, which is not inlined everywhere and then loses the level's instructions.
+        let [a, b, c] = [self.corner(a, slot), self.corner(b, slot), self.corner(c, slot)];
         let exact =
             |p: [f32; 3], q: [f32; 3]| f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0]);
         let [u, v, w] = [exact(c, b), exact(a, c), exact(b, a)];
@@ -90,7 +90,7 @@ impl ShearedRay {
     }
 
     #[inline(always)]
-    fn sheared_corner(&self, corner: &[Eight; 3], slot: usize) -> [f32; 3] {
+    fn corner(&self, corner: &[Eight; 3], slot: usize) -> [f32; 3] {
         let [x, y, z] = self.axes;
         let z = corner[z as usize][slot] - self.origin[2];
         let x = corner[x as usize][slot] - self.origin[0];
