@@ -6,14 +6,14 @@
 # TINYBVH is a folder with tiny_bvh.h (github.com/jbikker/tinybvh). FOLDER is where scenes, rays and results go. EMBREE names
 # a folder with include and lib of an Embree 3 or 4 if it is not installed (Debian: libembree-dev). Each PROGRAM is trigon's
 # example `rays` built from another commit, to be compared in the same run. The processor's CORE (0) runs everything.
-# SCENES are all four unless set. Raw lines are in FOLDER/lines.csv.
+# SCENES and PEERS are all unless set. Raw lines are in FOLDER/lines.csv.
 set -e
 [ $# -ge 2 ] || { sed -n '2,9s/^# \?//p' "$0"; exit 2; }
 cd "$(dirname "$0")/../.."
 tinybvh=$1 folder=$2 rounds=${3:-5}
 shift $(($# < 3 ? $# : 3))
 scenes=${SCENES:-hall car foliage stadium}
-peers="embree embree-robust embree-high tinybvh tinybvh-high"
+peers=${PEERS:-embree embree-robust embree-high tinybvh tinybvh-high}
 export RAYON_NUM_THREADS=1
 mkdir -p "$folder"
 
@@ -48,15 +48,19 @@ for line in open(sys.argv[1]):
     rates.setdefault((scene, row), {}).setdefault(name, []).append(float(rate))
     if any(map(int, counts[1:])):
         differences[scene, row, name] = ", ".join(counts[1:])
-print("| scene, rays | " + " | ".join(names) + " | trigon / embree | trigon / embree-robust |")
-print("|" + "---|" * (len(names) + 3))
+compared = [name for name in names if name != "trigon" and not name.endswith(("-high", "-packets"))]
+print("| scene, rays | " + " | ".join(names + [f"trigon / {name}" for name in compared]) + " |")
+print("|" + "---|" * (1 + len(names) + len(compared)))
 for (scene, row), measured in rates.items():
-    medians = {name: statistics.median(values) for name, values in measured.items()}
-    cells = [f"{medians[name]:.{0 if row == 'build' else 2}f}" if name in medians else "" for name in names]
-    # Both of one round, so that the machine's speed cancels.
-    ratios = [statistics.median(a / b for a, b in zip(measured["trigon"], measured[peer])) for peer in ("embree", "embree-robust")]
+    def cell(name):
+        return f"{statistics.median(measured[name]):.{0 if row == 'build' else 2}f}" if name in measured else ""
+
+    # Each of one round, so that the machine's speed cancels.
+    def ratio(name):
+        return f"{statistics.median(a / b for a, b in zip(measured['trigon'], measured[name])):.2f}"
+
     unit = ", ms" if row == "build" else ""
-    print(f"| {scene} {row}{unit} | " + " | ".join(cells + [f"{ratio:.2f}" for ratio in ratios]) + " |")
+    print(f"| {scene} {row}{unit} | " + " | ".join([cell(name) for name in names] + [ratio(name) for name in compared]) + " |")
 print("\nOther hits than trigon's when it wrote the rays (trigon: all; peers: misses, extra hits, other distances):")
 for (scene, row, name), counts in differences.items():
     print(f"{scene} {row} {name}: {counts}")

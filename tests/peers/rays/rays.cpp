@@ -32,7 +32,7 @@ struct Query { float origin[3], direction[3], end; };
 struct Hit { uint32_t triangle; float distance; };
 constexpr uint32_t MISS = ~0u;
 // As in the example.
-constexpr size_t BLOCK = 4096;
+constexpr size_t BLOCK = 512;
 using Follow = std::function<void(const Query*, Hit*, size_t)>;
 
 static double milliseconds() {

@@ -44,7 +44,7 @@ struct Arguments {
 
 /// Rays that are timed together. Few enough to take less time than a slice of the scheduler, so that the median of each
 /// is free from other work on the machine.
-const BLOCK: usize = 4096;
+const BLOCK: usize = 512;
 
 /// What the number of a triangle is where nothing is hit.
 const MISS: u32 = u32::MAX;
