@@ -7,12 +7,13 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
 
-use super::Bvh;
 use super::bits::{last_bit, next_bit};
-use super::prepared::{PreparedRay, PreparedRays, WIDENED};
-use super::stack::Stack;
+use super::prepared::{Boxes, PreparedRay, PreparedRays, WIDENED};
+use super::stack::{Entered, Stack};
+use super::traverse::Nearest;
 use super::triangle::ShearedRay;
 use super::wide::{Child, Eight, Inside, Node, WIDTH};
+use super::{Bvh, RayHit};
 use crate::simd::{greater, lesser};
 
 /// Fewer rays are faster one by one.
@@ -23,7 +24,6 @@ pub(super) struct Packet<'a> {
     rays: &'a PreparedRays,
     axes: [AxisBounds; 3],
     start: f32,
-    end: f32,
     outside: f32,
 }
 
@@ -62,42 +62,30 @@ impl<'a> Packet<'a> {
         let axes =
             [AxisBounds::new(simd, rays, 0), AxisBounds::new(simd, rays, 1), AxisBounds::new(simd, rays, 2)];
         let [start, _] = bounds(simd, &rays.start, lanes);
-        let [_, end] = bounds(simd, &rays.end, lanes);
         let [_, outside] = bounds(simd, &rays.outside, lanes);
-        Some(Self { rays, axes, start, end: end * WIDENED, outside })
+        Some(Self { rays, axes, start, outside })
     }
 
-    /// The boxes of a node that some of the rays may enter, one bit for each.
+    /// Where the first ray may enter each box of a node, and one bit for each box that some of them may enter before an end.
     #[inline(always)]
-    fn boxes<S: Simd>(&self, simd: S, node: &Node) -> u32 {
-        let (mut from, mut to) = (f32x8::splat(simd, self.start), f32x8::splat(simd, self.end));
+    fn boxes<S: Simd>(&self, simd: S, node: &Node, end: f32) -> Boxes {
+        let (mut from, mut to) = (f32x8::splat(simd, self.start), f32x8::splat(simd, end * WIDENED));
         for (axis, sides) in self.axes.iter().zip(&node.sides) {
             let near = f32x8::simd_from(simd, sides[axis.first & 1]) - axis.origins[0];
             from = greater(lesser(near * axis.inverse[0], near * axis.inverse[1]), from);
             let far = f32x8::simd_from(simd, sides[(axis.first ^ 1) & 1]) - axis.origins[1];
             to = lesser(greater(far * axis.wider[0], far * axis.wider[1]), to);
         }
-        from.simd_le(to + self.outside).to_bitmask() as u32
+        let entered = from.simd_le(to + self.outside).to_bitmask() as u32;
+        Boxes { near: from.into(), entered }
     }
 
-    /// Adds the boxes of a node that some of the rays may enter; there must be room.
+    /// The rays that may enter a box of a node before their ends, one bit for each.
     #[inline(always)]
-    fn visit<S: Simd>(&self, simd: S, node: &Node, lanes: u32, stack: &mut Stack<Visit>) {
-        let mut entered = self.boxes(simd, node);
-        while let Some(slot) = last_bit(&mut entered) {
-            let lanes = self.entering(simd, node, slot) & lanes;
-            if lanes != 0 {
-                stack.push(Visit { child: node.children[slot], lanes });
-            }
-        }
-    }
-
-    /// The rays that may enter a box of a node, one bit for each.
-    #[inline(always)]
-    fn entering<S: Simd>(&self, simd: S, node: &Node, slot: usize) -> u32 {
+    fn entering<S: Simd>(&self, simd: S, node: &Node, slot: usize, ends: &Eight) -> u32 {
         let rays = self.rays;
         let mut from = f32x8::simd_from(simd, rays.start);
-        let mut to = f32x8::simd_from(simd, rays.end) * WIDENED;
+        let mut to = f32x8::simd_from(simd, *ends) * WIDENED;
         for axis in 0..3 {
             let (sides, first) = (&node.sides[axis], self.axes[axis].first);
             let origin = f32x8::simd_from(simd, rays.origin[axis]);
@@ -144,7 +132,8 @@ impl Bvh {
     /// The rays of a packet that hit anything, one bit for each.
     #[inline(always)]
     pub(super) fn occluded_packet<S: Simd>(&self, simd: S, packet: &Packet<'_>) -> u32 {
-        let lanes = packet.rays.possible;
+        let (rays, lanes) = (packet.rays, packet.rays.possible);
+        let [_, end] = bounds(simd, &rays.end, lanes);
         let whole = Visit { child: self.root, lanes };
         let mut stack = Stack::new(whole);
         stack.push(whole);
@@ -154,12 +143,19 @@ impl Bvh {
             match child.inside() {
                 Inside::Node(number) if lanes.count_ones() > 1 => {
                     stack.reserve();
-                    packet.visit(simd, &self.nodes[number], lanes, &mut stack);
+                    let node = &self.nodes[number];
+                    let mut entered = packet.boxes(simd, node, end).entered;
+                    while let Some(slot) = last_bit(&mut entered) {
+                        let lanes = packet.entering(simd, node, slot, &rays.end) & lanes;
+                        if lanes != 0 {
+                            stack.push(Visit { child: node.children[slot], lanes });
+                        }
+                    }
                 }
                 // A ray that has lost the others.
                 Inside::Node(_) => {
                     while let Some(lane) = next_bit(&mut lanes) {
-                        if self.occluded_below(simd, &PreparedRay::new(packet.rays, lane), child) {
+                        if self.occluded_below(simd, &PreparedRay::new(rays, lane), child) {
                             alive &= !(1 << lane);
                         }
                     }
@@ -167,7 +163,7 @@ impl Bvh {
                 Inside::Leaf(number) => {
                     let leaf = &self.leaves[number];
                     while let Some(lane) = next_bit(&mut lanes) {
-                        if self.is_hit(simd, &ShearedRay::new(packet.rays, lane), leaf) {
+                        if self.is_hit(simd, &ShearedRay::new(rays, lane), leaf) {
                             alive &= !(1 << lane);
                         }
                     }
@@ -178,5 +174,61 @@ impl Bvh {
             }
         }
         lanes & !alive
+    }
+
+    /// Finds the nearest hits of the rays of a packet.
+    #[inline(always)]
+    pub(super) fn nearest_packet<S: Simd>(
+        &self,
+        simd: S,
+        packet: &Packet<'_>,
+        nearest: &mut [Nearest; WIDTH],
+        counts: &mut dyn FnMut(usize, &RayHit) -> bool,
+    ) {
+        let (rays, lanes) = (packet.rays, packet.rays.possible);
+        let mut ends = rays.end;
+        let [_, mut end] = bounds(simd, &ends, lanes);
+        let whole = Entered { near: packet.start, child: Visit { child: self.root, lanes } };
+        let mut stack = Stack::new(whole);
+        stack.push(whole);
+        while let Some(Entered { near, child: Visit { child, mut lanes } }) = stack.pop() {
+            // Hits found meanwhile may be nearer.
+            if near > end * WIDENED + packet.outside {
+                continue;
+            }
+            match child.inside() {
+                Inside::Node(number) if lanes.count_ones() > 1 => {
+                    stack.reserve();
+                    let node = &self.nodes[number];
+                    let Boxes { near, mut entered } = packet.boxes(simd, node, end);
+                    let below = stack.count();
+                    while let Some(slot) = next_bit(&mut entered) {
+                        let lanes = packet.entering(simd, node, slot, &ends) & lanes;
+                        if lanes != 0 {
+                            let child = Visit { child: node.children[slot], lanes };
+                            stack.push_sorted(Entered { near: near[slot], child }, below);
+                        }
+                    }
+                }
+                // A ray that has lost the others.
+                Inside::Node(_) => {
+                    while let Some(lane) = next_bit(&mut lanes) {
+                        let (ray, nearest) = (PreparedRay::new(rays, lane), &mut nearest[lane]);
+                        self.nearest_below(simd, &ray, child, nearest, &mut |hit| counts(lane, hit));
+                        ends[lane] = nearest.end;
+                    }
+                    [_, end] = bounds(simd, &ends, rays.possible);
+                }
+                Inside::Leaf(number) => {
+                    let leaf = &self.leaves[number];
+                    while let Some(lane) = next_bit(&mut lanes) {
+                        let ray = ShearedRay::new(rays, lane);
+                        nearest[lane].look(simd, &ray, leaf, &mut |hit| counts(lane, hit));
+                        ends[lane] = nearest[lane].end;
+                    }
+                    [_, end] = bounds(simd, &ends, rays.possible);
+                }
+            }
+        }
     }
 }

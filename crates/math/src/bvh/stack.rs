@@ -1,6 +1,6 @@
 //! The boxes that a ray has yet to visit.
 
-use super::wide::{Child, WIDTH};
+use super::wide::WIDTH;
 
 /// Entries that need no allocation. A balanced tree over 2³² triangles has 11 levels, each of which leaves 7 boxes at most.
 const FEW: usize = 64;
@@ -13,11 +13,11 @@ pub(super) struct Stack<T> {
     more: Vec<T>,
 }
 
-/// A box, and where the ray enters it.
+/// A box, and where a ray enters it.
 #[derive(Clone, Copy)]
-pub(super) struct Entered {
+pub(super) struct Entered<T> {
     pub(super) near: f32,
-    pub(super) child: Child,
+    pub(super) child: T,
 }
 
 impl<T: Copy> Stack<T> {
@@ -59,10 +59,10 @@ impl<T: Copy> Stack<T> {
     }
 }
 
-impl Stack<Entered> {
+impl<T: Copy> Stack<Entered<T>> {
     /// Adds an entry to those from `first` on, of which the nearest comes last; there must be room.
     #[inline(always)]
-    pub(super) fn push_sorted(&mut self, entry: Entered, first: usize) {
+    pub(super) fn push_sorted(&mut self, entry: Entered<T>, first: usize) {
         self.push(entry);
         let mut slot = (self.count - 1) % FEW;
         while slot > first && self.few[slot - 1].near < self.few[slot].near {

@@ -10,7 +10,7 @@ use super::prepared::{PreparedRay, PreparedRays};
 use super::stack::{Entered, Stack};
 use super::surroundings::Surroundings;
 use super::triangle::ShearedRay;
-use super::wide::{Child, Inside, Leaf, WIDTH};
+use super::wide::{Child, Eight, Inside, Leaf, WIDTH};
 use super::{Bvh, Ray, RayHit, Rays};
 
 impl Bvh {
@@ -53,11 +53,19 @@ impl Bvh {
             #[inline(always)]
             || {
                 let rays = PreparedRays::new(simd, self, rays);
+                let mut nearest = Nearest::before(&rays.end);
+                if let Some(packet) = Packet::new(simd, &rays) {
+                    self.nearest_packet(simd, &packet, &mut nearest, counts);
+                } else {
+                    let mut left = rays.possible;
+                    while let Some(lane) = next_bit(&mut left) {
+                        let (ray, nearest) = (PreparedRay::new(&rays, lane), &mut nearest[lane]);
+                        self.nearest_below(simd, &ray, self.root, nearest, &mut |hit| counts(lane, hit));
+                    }
+                }
                 let mut hits = [None; WIDTH];
-                let mut left = rays.possible;
-                while let Some(lane) = next_bit(&mut left) {
-                    let ray = PreparedRay::new(&rays, lane);
-                    hits[lane] = self.nearest_at(simd, &ray, &mut |hit| counts(lane, hit));
+                for (hit, nearest) in hits.iter_mut().zip(nearest) {
+                    *hit = nearest.hit;
                 }
                 hits
             },
@@ -160,15 +168,17 @@ impl Bvh {
         false
     }
 
+    /// Finds the nearest hit of a ray in a part of the tree.
     #[inline(always)]
-    fn nearest_at<S: Simd>(
+    pub(super) fn nearest_below<S: Simd>(
         &self,
         simd: S,
         ray: &PreparedRay,
+        root: Child,
+        nearest: &mut Nearest,
         counts: &mut dyn FnMut(&RayHit) -> bool,
-    ) -> Option<RayHit> {
-        let mut nearest = Nearest { hit: None, end: ray.sheared.end };
-        let root = Entered { near: ray.sheared.start, child: self.root };
+    ) {
+        let root = Entered { near: ray.sheared.start, child: root };
         let mut stack = Stack::new(root);
         stack.push(root);
         while let Some(Entered { near, mut child }) = stack.pop() {
@@ -179,7 +189,7 @@ impl Bvh {
             loop {
                 match child.inside() {
                     Inside::Leaf(number) => {
-                        nearest.look(simd, ray, &self.leaves[number], counts);
+                        nearest.look(simd, &ray.sheared, &self.leaves[number], counts);
                         break;
                     }
                     Inside::Node(number) => {
@@ -203,33 +213,43 @@ impl Bvh {
                 }
             }
         }
-        nearest.hit
     }
 }
 
-/// The nearest hit so far.
-struct Nearest {
+/// The nearest hit of a ray so far.
+#[derive(Clone, Copy)]
+pub(super) struct Nearest {
     hit: Option<RayHit>,
     /// Its distance, or the end of the range.
-    end: f32,
+    pub(super) end: f32,
 }
 
 impl Nearest {
+    /// Of eight rays that have hit nothing yet.
+    #[inline(always)]
+    fn before(ends: &Eight) -> [Self; WIDTH] {
+        let mut nearest = [Self { hit: None, end: 0.0 }; WIDTH];
+        for (nearest, &end) in nearest.iter_mut().zip(ends) {
+            nearest.end = end;
+        }
+        nearest
+    }
+
     /// Looks at the triangles of a leaf.
     #[inline(always)]
-    fn look<S: Simd>(
+    pub(super) fn look<S: Simd>(
         &mut self,
         simd: S,
-        ray: &PreparedRay,
+        ray: &ShearedRay,
         leaf: &Leaf,
         counts: &mut dyn FnMut(&RayHit) -> bool,
     ) {
-        let mut candidates = ray.sheared.candidates(simd, leaf);
+        let mut candidates = ray.candidates(simd, leaf);
         while let Some(slot) = next_bit(&mut candidates) {
-            let Some(found) = ray.sheared.crossing(leaf, slot) else { continue };
+            let Some(found) = ray.crossing(leaf, slot) else { continue };
             let (distance, triangle) = (found.distance, leaf.numbers[slot]);
             let is_nearer = |best: RayHit| (distance, triangle) < (best.distance, best.triangle);
-            if distance >= ray.sheared.start && distance <= self.end && self.hit.is_none_or(is_nearer) {
+            if distance >= ray.start && distance <= self.end && self.hit.is_none_or(is_nearer) {
                 let hit = RayHit { distance, triangle, weights: found.weights() };
                 if counts(&hit) {
                     (self.hit, self.end) = (Some(hit), distance);
