@@ -5,6 +5,7 @@ use glam::Vec3;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::Bvh;
+use super::extent::Extent;
 use super::wide::{Child, Leaf, Node, WIDTH};
 
 /// More bins split better and build slower; beyond sixteen there is hardly any gain.
@@ -25,33 +26,6 @@ impl Item {
     }
 }
 
-#[derive(Clone, Copy)]
-struct Extent {
-    min: Vec3,
-    max: Vec3,
-}
-
-impl Extent {
-    const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
-
-    fn add(&mut self, min: Vec3, max: Vec3) {
-        self.min = Vec3::select(min.cmplt(self.min), min, self.min);
-        self.max = Vec3::select(max.cmpgt(self.max), max, self.max);
-    }
-
-    fn of(items: &[Item]) -> Self {
-        let mut extent = Self::EMPTY;
-        items.iter().for_each(|item| extent.add(item.min, item.max));
-        extent
-    }
-
-    /// Half the surface area; 0 if it is empty.
-    fn half_area(&self) -> f32 {
-        let size = self.max - self.min;
-        if size.x >= 0.0 { size.x * size.y + size.y * size.z + size.z * size.x } else { 0.0 }
-    }
-}
-
 impl Bvh {
     /// A hierarchy over triangles, numbered in their order, built by the threads of the current rayon pool. No ray hits a
     /// triangle with a coordinate that is not finite.
@@ -60,12 +34,14 @@ impl Bvh {
         let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
         let numbered = (0_u32..).zip(triangles).filter(|(_, corners)| usable(corners));
         let mut items: Vec<Item> = numbered.map(|(number, corners)| item(number, corners)).collect();
-        let extent = Extent::of(&items);
+        let extent = extent_of(&items);
         let extent = if items.is_empty() { [Vec3::ZERO; 2] } else { [extent.min, extent.max] };
         let mut tree = Subtree::default();
         let root = tree.grow(&mut items, triangles);
         let Subtree { nodes, leaves } = tree;
-        Self { root, nodes, leaves, len: items.len(), extent, level: Level::new() }
+        let mut tree = Self { root, nodes, leaves, len: items.len(), extent, cost: 0.0, level: Level::new() };
+        tree.cost = tree.expected_cost();
+        tree
     }
 }
 
@@ -142,7 +118,13 @@ fn groups(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
 }
 
 fn boxed(items: &mut [Item]) -> (Extent, &mut [Item]) {
-    (Extent::of(items), items)
+    (extent_of(items), items)
+}
+
+fn extent_of(items: &[Item]) -> Extent {
+    let mut extent = Extent::EMPTY;
+    items.iter().for_each(|item| extent.add(item.min, item.max));
+    extent
 }
 
 fn item(number: u32, corners: &[Vec3; 3]) -> Item {

@@ -11,9 +11,11 @@
 
 mod bits;
 mod build;
+mod extent;
 mod packet;
 mod prepared;
 mod ray;
+mod refit;
 mod stack;
 mod surroundings;
 mod traverse;
@@ -53,6 +55,8 @@ pub struct Bvh {
     len: usize,
     /// The corners of their box.
     extent: [Vec3; 2],
+    /// The boxes that a ray was expected to enter when the tree was built.
+    cost: f32,
     /// The instructions that the processor has.
     level: Level,
 }

@@ -318,6 +318,24 @@ proptest! {
         check_by_brute_force(&scene.triangles, &scene.rays);
     }
 
+    /// Triangles that move, all of them a little or some of them far.
+    #[test]
+    fn a_tree_of_moved_triangles_answers_as_a_look_at_every_one(
+        triangles in prop::collection::vec([vector(), vector(), vector()], 0..120),
+        moves in prop::collection::vec((vector(), prop_oneof![Just(0.01_f32), Just(0.3), Just(3.0)]), 120),
+        rays in prop::collection::vec((vector(), vector()), 20),
+    ) {
+        let moved: Vec<[Vec3; 3]> =
+            triangles.iter().zip(moves).map(|(corners, (by, size))| corners.map(|corner| corner + by * size)).collect();
+        let Some(tree) = Bvh::new(&triangles).refit(&moved) else { return Ok(()) };
+        for (origin, direction) in rays {
+            let ray = Ray { origin, direction };
+            let expected = if direction == Vec3::ZERO { None } else { by_brute_force(&moved, &ray) };
+            prop_assert_eq!(tree.nearest(&ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
+            prop_assert_eq!(tree.occluded(&ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+        }
+    }
+
     #[test]
     fn a_tree_answers_as_a_look_at_every_triangle_for_all_numbers(scene in wild_scene()) {
         check_by_brute_force(&scene.triangles, &scene.rays);
@@ -393,6 +411,25 @@ fn nothing_is_met_where_there_is_nothing() {
     let triangle = [[Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(1.0, 0.0, 1.0)]];
     assert_eq!(Bvh::new(&triangle).nearest(&nowhere, 0.0..1.0), None, "a ray without direction");
     assert!(Bvh::new(&triangle).occluded(&ray, 0.0..2.0), "and one with");
+}
+
+#[test]
+fn a_tree_is_built_anew_where_triangles_came_went_or_moved_apart() {
+    let row = |step: f32| -> Vec<[Vec3; 3]> {
+        let at = |number: u16| Vec3::X * (f32::from(number % 40) * step + f32::from(number / 40) * 0.01);
+        (0..400).map(|number| [Vec3::ZERO, Vec3::Y, Vec3::Z].map(|corner| corner + at(number))).collect()
+    };
+    let tree = || Bvh::new(&row(2.0));
+    assert!(tree().refit(&row(2.1)).is_some(), "a little");
+    assert!(tree().refit(&row(2.0)[1..]).is_none(), "one less");
+    assert!(tree().refit(&[row(2.0), row(2.0)].concat()).is_none(), "twice as many");
+    let mut broken = row(2.0);
+    broken[7][1].y = f32::NAN;
+    assert!(tree().refit(&broken).is_none(), "one that is nowhere now");
+    let mut mixed = row(2.0);
+    (0..200).for_each(|number| mixed.swap(number, 399 - number * 7 % 200));
+    assert!(tree().refit(&mixed).is_none(), "each at the place of another");
+    assert!(Bvh::new(&[]).refit(&[]).is_some(), "nothing, as before");
 }
 
 #[test]

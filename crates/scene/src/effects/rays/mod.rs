@@ -1,8 +1,9 @@
 //! Rays among the casters of a scene: exact shadows, ambient occlusion, mirrors and glass. All but those
 //! that come from the eye through glass alone ignore alpha masks: the whole triangle stops them.
 //!
-//! The BVH over the casters' triangles is kept until the casters change. A surface may enclose a volume or not: a ray that
-//! enters through an open surface would never leave, so an open surface stands for a plate.
+//! The BVH over the casters' triangles is kept until the casters change, and refitted where they only move. A surface may
+//! enclose a volume or not: a ray that enters through an open surface would never leave, so an open surface stands for a
+//! plate.
 
 mod occlusion;
 mod optics;
@@ -11,6 +12,7 @@ mod surface_hit;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelExtend, ParallelIterator};
 use surface_hit::CasterSurfaces;
 use trigon_math::glam::Affine3;
 use trigon_math::{Bvh, DAffine3, DVec3, Ray, Rays, Vec3};
@@ -39,35 +41,43 @@ pub(crate) struct RayTriangles {
 }
 
 impl RayTriangles {
-    fn new(casters: &Casters, looks_of: Option<&Scene>) -> Self {
+    /// Those of the last frame, if there are any, may have moved.
+    fn new(casters: &Casters, looks_of: Option<&Scene>, last: Option<Self>) -> Self {
         let middle = casters.bounds.center().unwrap_or(DVec3::ZERO);
-        let mut triangles = Vec::new();
-        for caster in &casters.list {
-            let to_scene = DAffine3 {
-                translation: caster.shadow.placement.world.translation - middle,
-                ..caster.shadow.placement.world
-            };
-            let [x, y, z] = &caster.geometry.columns.positions;
-            let position = |vertex: u32| {
-                let vertex = vertex as usize;
-                let position = Vec3::new(x[vertex], y[vertex], z[vertex]);
-                to_scene.transform_point3(position.as_dvec3()).as_vec3()
-            };
-            for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
-                if material.is_some() {
-                    let run = &caster.geometry.triangles[run.triangles.clone()];
-                    triangles.extend(run.iter().map(|corners| corners.map(position)));
-                }
-            }
-        }
+        let triangles = positions(casters, middle);
+        let bvh = last.and_then(|last| last.bvh.refit(&triangles)).unwrap_or_else(|| Bvh::new(&triangles));
         let reach = (casters.bounds.size() * 0.5).max_element() as f32;
         let surfaces = looks_of.map(|scene| CasterSurfaces::new(scene, casters));
-        Self { bvh: Bvh::new(&triangles), middle, reach, surfaces }
+        Self { bvh, middle, reach, surfaces }
     }
 
     pub(crate) fn byte_count(&self) -> usize {
         self.bvh.byte_count() + self.surfaces.as_ref().map_or(0, CasterSurfaces::byte_count)
     }
+}
+
+/// The corners of all triangles around a point of the world.
+fn positions(casters: &Casters, middle: DVec3) -> Vec<[Vec3; 3]> {
+    /// Triangles per task, at least.
+    const FEWEST: usize = 1 << 13;
+    let mut triangles = Vec::new();
+    for caster in &casters.list {
+        let world = &caster.shadow.placement.world;
+        let to_scene = DAffine3 { translation: world.translation - middle, ..*world };
+        let [x, y, z] = &caster.geometry.columns.positions;
+        let position = |vertex: u32| {
+            let vertex = vertex as usize;
+            let position = Vec3::new(x[vertex], y[vertex], z[vertex]);
+            to_scene.transform_point3(position.as_dvec3()).as_vec3()
+        };
+        for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
+            if material.is_some() {
+                let run = caster.geometry.triangles[run.triangles.clone()].par_iter().with_min_len(FEWEST);
+                triangles.par_extend(run.map(|corners| corners.map(position)));
+            }
+        }
+    }
+    triangles
 }
 
 /// The casters as the rays of a frame hit them.
@@ -237,10 +247,15 @@ impl RayCache {
         let fits = |(cached, triangles): &(Vec<ShadowSource>, Arc<RayTriangles>)| {
             casters.shadow_sources().eq(cached) && triangles.surfaces.is_some() == looks_of.is_some()
         };
-        let cached = self.cached.take().filter(fits);
-        let sources = || casters.shadow_sources().cloned().collect();
-        let made = || (sources(), Arc::new(RayTriangles::new(casters, looks_of)));
-        let (_, triangles) = self.cached.insert(cached.unwrap_or_else(made));
+        let cached = match self.cached.take() {
+            Some(cached) if fits(&cached) => cached,
+            other => {
+                let last = other.and_then(|(_, triangles)| Arc::into_inner(triangles));
+                let sources = casters.shadow_sources().cloned().collect();
+                (sources, Arc::new(RayTriangles::new(casters, looks_of, last)))
+            }
+        };
+        let (_, triangles) = self.cached.insert(cached);
         RayScene::new(Arc::clone(triangles), camera_to_world)
     }
 }
