@@ -16,6 +16,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `state` | what a worker holds from tile to tile: the lists of the tile's triangles by kind of surface, the budget for equal depths, the order of keys |
+//! | `depth_order` | opaque triangles from front to back, where many lie above each other |
 //! | `visibility` | **the order of the kinds of surface, and the table of which kernel draws a triangle** |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
 //! | `triangle` | one triangle prepared for the tile, whatever its size |
@@ -36,6 +37,7 @@
 //! and depths, so the choice of a kernel never changes a byte.
 
 mod cached;
+mod depth_order;
 mod depth_query;
 mod eight;
 mod masked;

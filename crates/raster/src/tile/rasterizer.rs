@@ -164,6 +164,23 @@ impl TileRasterizer<'_> {
         self.hierarchical && self.hides(buffer.farthest_of_all(&self.area), depth)
     }
 
+    /// The same, with bounds as near as they have to be to decide it.
+    #[inline(always)]
+    pub(super) fn tile_hides_all<S: Simd>(&self, simd: S, buffer: &mut VisibilityBuffer, depth: f32) -> bool {
+        // A separate function: few tiles need it.
+        simd.vectorize(
+            #[inline(always)]
+            || loop {
+                if self.tile_hides(buffer, depth) {
+                    return true;
+                }
+                if !buffer.refresh_farthest(simd) {
+                    return false;
+                }
+            },
+        )
+    }
+
     /// Draws a triangle that the tile does not hide as a whole.
     #[inline(always)]
     pub(crate) fn triangle<S: Simd, const MULTI: bool>(

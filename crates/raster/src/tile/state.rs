@@ -8,6 +8,7 @@
 //! later one is never visible at equal depth (`visibility`). Masked and translucent ones are compared by their
 //! ranks in that order.
 
+use super::depth_order::DepthOrder;
 use super::depth_query::TileView;
 use super::masked::MaskQueue;
 use crate::BlendMode;
@@ -22,11 +23,12 @@ use std::sync::{Mutex, OnceLock};
 
 /// The triangles of a tile, and which of them is visible at each sample.
 pub(crate) struct TileState {
-    /// The tile's triangles: opaque, masked, overlay, translucent.
+    /// The tile's triangles: opaque, masked, overlay, translucent. Those of a draw may have any order.
     pub(crate) triangles: Vec<TriangleRef>,
     pub(crate) buffer: VisibilityBuffer,
     pub(crate) ties: Ties,
     pub(super) key_order: KeyOrder,
+    pub(super) depth_order: DepthOrder,
     /// Triangles in another order, where that is needed.
     pub(super) reordered: Vec<TriangleRef>,
     /// Where each triangle stands in that order.
@@ -41,6 +43,7 @@ impl TileState {
             buffer: VisibilityBuffer::new(),
             ties: Ties::default(),
             key_order: KeyOrder::default(),
+            depth_order: DepthOrder::default(),
             reordered: Vec::new(),
             ranks: Vec::new(),
             mask_queue: MaskQueue::default(),
@@ -256,8 +259,9 @@ impl KeyOrder {
             let triangle_of = |keyed: &Keyed| triangles[keyed.number()];
             let [first, last] =
                 [&face[0], &face[face.len() - 1]].map(|keyed| frame.draw_of(triangle_of(keyed)));
-            // Those of one draw are in order already.
-            if first != last {
+            if first == last {
+                face.sort_unstable_by_key(|keyed| (triangle_of(keyed).ordinal, *keyed));
+            } else {
                 face.sort_unstable_by(|a, b| frame.compare(triangle_of(a), triangle_of(b)).then(a.cmp(b)));
             }
         }

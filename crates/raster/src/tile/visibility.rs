@@ -110,7 +110,7 @@ pub(super) fn cover_more(
     let rasterizer = TileRasterizer { may_give_up, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
     let triangles = &triangles[..part.end];
-    let pass = TilePass { frame, rasterizer, triangles, buffer, counts: &mut counts };
+    let pass = TilePass { frame, rasterizer, triangles, nearest: &[], buffer, counts: &mut counts };
     let is_drawn = pass.cover_all(part.start);
     buffer.write_back();
     stats.add_counts(&counts);
@@ -120,7 +120,8 @@ pub(super) fn cover_more(
 /// Draws the opaque triangles, which come first in the tile's list. If there are too many ties, draws
 /// them again in the order of their keys.
 fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, opaque: usize) -> Counts {
-    let TileState { triangles, buffer, ties, key_order, reordered, .. } = state;
+    let TileState { triangles, buffer, ties, key_order, depth_order, reordered, .. } = state;
+    let is_sorted = depth_order.sort(frame, area, &mut triangles[..opaque], reordered);
     let triangles = &triangles[..opaque];
     // Ties of one triangle are mostly with the same other one.
     let last = Cell::new(([NO_TRIANGLE; 2], false));
@@ -134,10 +135,11 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
         last.set(([ours, theirs], wins));
         wins
     };
-    let in_order = frame.plan.ordinals_are_keys;
+    let in_order = frame.plan.ordinals_are_keys && !is_sorted;
     let rasterizer = TileRasterizer { in_order, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
-    if (TilePass { frame, rasterizer, triangles, buffer, counts: &mut counts }).cover_all(0) {
+    let nearest = depth_order.nearest();
+    if (TilePass { frame, rasterizer, triangles, nearest, buffer, counts: &mut counts }).cover_all(0) {
         return counts;
     }
     key_order.sort(frame, triangles);
@@ -146,7 +148,8 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     buffer.clear(area, rasterizer.offsets.len());
     counts = Counts { tiles_reordered: 1, ..Counts::default() };
     let rasterizer = TileRasterizer { in_order: true, by_draws: false, ..rasterizer };
-    TilePass { frame, rasterizer, triangles: reordered, buffer, counts: &mut counts }.cover_all(0);
+    TilePass { frame, rasterizer, triangles: reordered, nearest: &[], buffer, counts: &mut counts }
+        .cover_all(0);
     buffer.write_back();
     key_order.name_visible(buffer);
     counts
@@ -157,6 +160,8 @@ struct TilePass<'p> {
     frame: &'p FrameView<'p>,
     rasterizer: TileRasterizer<'p>,
     triangles: &'p [TriangleRef],
+    /// See [`DepthOrder::nearest`](super::depth_order::DepthOrder::nearest).
+    nearest: &'p [f32],
     buffer: &'p mut VisibilityBuffer,
     counts: &'p mut Counts,
 }
@@ -181,6 +186,12 @@ fn cover_triangles<S: Simd, const MULTI: bool>(simd: S, mut pass: TilePass<'_>, 
     let mut edges = QuadEdges::new(frame.grid.pattern);
     let mut start = first;
     while start < triangles.len() {
+        if let Some(&nearest) = pass.nearest.get(start)
+            && rasterizer.tile_hides_all(simd, pass.buffer, nearest)
+        {
+            pass.counts.tiles_rejected += (triangles.len() - start) as u64;
+            return true;
+        }
         let points = points_side_by_side(frame, &triangles[start..]);
         if points > 0 {
             cover_points::<S, MULTI>(simd, &mut pass, start..start + points);
@@ -240,7 +251,7 @@ fn points_side_by_side(frame: &FrameView<'_>, triangles: &[TriangleRef]) -> usiz
 /// Draws up to eight points of one draw from their vertices.
 #[inline(always)]
 fn cover_points<S: Simd, const MULTI: bool>(simd: S, pass: &mut TilePass<'_>, range: Range<usize>) {
-    let TilePass { frame, rasterizer, triangles, buffer, counts } = pass;
+    let TilePass { frame, rasterizer, triangles, buffer, counts, .. } = pass;
     // A separate function, so that it takes no registers from the kernels of triangles.
     simd.vectorize(
         #[inline(always)]
@@ -279,7 +290,7 @@ fn cover_one<S: Simd, const MULTI: bool>(
     ready: Option<PreparedTriangle<'_>>,
     index: usize,
 ) {
-    let TilePass { frame, rasterizer, triangles, buffer, counts } = pass;
+    let TilePass { frame, rasterizer, triangles, buffer, counts, .. } = pass;
     let covering = match ready.filter(|ready| ready.eight.small >> ready.lane & 1 != 0) {
         None => {
             let triangle = frame.triangle(triangles[index]);
@@ -348,7 +359,10 @@ fn prepare_batch<S: Simd>(simd: S, pass: &TilePass<'_>, range: Range<usize>) -> 
 
 /// The vertices of up to eight whole primitives of one draw.
 #[inline(always)]
-fn corners_of_one<'f>(frame: &FrameView<'f>, triangles: &[TriangleRef]) -> [[&'f ScreenVertex; LANES]; 3] {
+pub(super) fn corners_of_one<'f>(
+    frame: &FrameView<'f>,
+    triangles: &[TriangleRef],
+) -> [[&'f ScreenVertex; LANES]; 3] {
     let draw = frame.draw_of(triangles[0]);
     let plan = &frame.plan.draws[draw];
     let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw()].geometry);

@@ -203,6 +203,16 @@ impl VisibilityBuffer {
         self.blocks[block].farthest
     }
 
+    /// Recomputes the farthest depth of the block that decides that of the tile. Returns whether it is nearer now.
+    #[inline(always)]
+    pub(crate) fn refresh_farthest<S: Simd>(&mut self, simd: S) -> bool {
+        let may_be_nearer = self.fill.is_none() && self.blocks[self.farthest_block].writes > 0;
+        if may_be_nearer {
+            self.refresh(simd, self.farthest_block);
+        }
+        may_be_nearer && self.stale
+    }
+
     /// Recomputes the farthest depth of each block of a tile where that may help.
     #[inline(always)]
     pub(crate) fn refresh_all<S: Simd>(&mut self, simd: S, area: &TileArea) {

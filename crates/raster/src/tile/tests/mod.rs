@@ -3,6 +3,7 @@
 //! The search finds coverage, facing and samples by itself, in whole numbers. Its depths are those of [`DepthPlane`], because
 //! it has to find the same ties to the bit; the property `depth_plane` of the workspace's tests holds these to rational numbers.
 
+mod layers;
 mod marks;
 mod points;
 mod sizes;
