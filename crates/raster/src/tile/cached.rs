@@ -11,7 +11,7 @@ use crate::Stats;
 use crate::bin::TriangleRef;
 use crate::shade::Shading;
 use crate::simd::{LANES, U32, at_level, prelude::*};
-use crate::tile_buffer::{BLOCKS, BlockBounds, NO_TRIANGLE, TileArea};
+use crate::tile_buffer::{BlockBounds, NO_TRIANGLE, TileArea};
 use crate::view::FrameView;
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub(crate) struct CachedTile {
     /// Where overlays are visible; empty if there are none.
     overlay: CachedLayer,
     /// Bounds of the depths of opaque triangles.
-    bounds: [BlockBounds; BLOCKS * BLOCKS],
+    bounds: BlockBounds,
 }
 
 /// The visible triangle of each sample, by its number among the cached triangles, and its depth.

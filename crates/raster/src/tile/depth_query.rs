@@ -109,7 +109,7 @@ impl TileView<'_> {
 
     #[inline(always)]
     fn hides_block(&self, block: usize, covering: &TileTriangle) -> bool {
-        self.frame.hierarchical && self.buffer.blocks[block].farthest > covering.depth.high
+        self.frame.hierarchical && self.buffer.blocks.farthest[block] > covering.depth.high
     }
 
     /// The lanes of a group that lie in the image.

@@ -167,7 +167,7 @@ impl TileRasterizer<'_> {
     ) {
         let group = TileArea::group_of([column as usize, row as usize]);
         let block = group / GROUPS;
-        if self.hierarchical && self.hides(buffer.blocks[block].farthest, walk.depth) {
+        if self.hierarchical && self.hides(buffer.blocks.farthest[block], walk.depth) {
             return;
         }
         counts.groups += 1;

@@ -223,7 +223,7 @@ impl TileRasterizer<'_> {
                 let block = (block_y as usize) * BLOCKS + block_x as usize;
                 let is_hidden = self.hierarchical
                     && match is_small {
-                        true => self.hides(buffer.blocks[block].farthest, covering.depth.high),
+                        true => self.hides(buffer.blocks.farthest[block], covering.depth.high),
                         false => self.block_hides(simd, covering, buffer, block, [left, top]),
                     };
                 if is_hidden {
@@ -305,7 +305,7 @@ impl TileRasterizer<'_> {
         let [least, greatest] = self.depths_in_block(walk.covering, corner);
         // If the triangle's farthest depth in the block is in front of the block's nearest, no
         // depth has to be compared.
-        let overwrites = self.hierarchical && least > buffer.blocks[block].nearest;
+        let overwrites = self.hierarchical && least > buffer.blocks.nearest[block];
         for group in 0..8 {
             let first = [corner[0] + (group & 1) * 4, corner[1] + (group >> 1) * 2];
             let samples = if MULTI { buffer.samples } else { 1 };

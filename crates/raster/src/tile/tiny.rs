@@ -21,7 +21,7 @@ use super::multisample;
 use super::multisample::EdgeOrigins;
 use super::rasterizer::TileRasterizer;
 use crate::simd::{
-    F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*,
+    F32, I32, InlineMap, LANES, Mask, Simd, U32, greater, inlined, lane_numbers, lesser, prelude::*,
 };
 use crate::stats::Counts;
 use crate::tile_buffer::{BLOCKS, NO_TRIANGLE, TileArea, VisibilityBuffer, name_where};
@@ -188,34 +188,45 @@ impl TileRasterizer<'_> {
         // A block hides the triangle if its farthest depth is at least this (a greater depth is
         // nearer): in the order of keys an equal depth is enough, otherwise the block must be
         // strictly nearer.
-        let limit = if self.in_order { high } else { high.next_up() };
-        let [[left, width], [top, height]] = eight.pixels.each_ref().each(
+        let limit = F32::splat(simd, if self.in_order { high } else { high.next_up() });
+        let high = F32::splat(simd, high);
+        let [[left, right], [top, bottom]] = eight.pixels.each_ref().each(
             #[inline(always)]
-            |[first, last]| [first[lane] >> 3, (last[lane] >> 3) + 1 - (first[lane] >> 3)],
+            |[first, last]| [first[lane] >> 3, last[lane] >> 3],
         );
-        let (mut hidden, mut column) = (true, 0);
-        let mut block = (top * BLOCKS as i32 + left) as usize;
-        // One loop over all blocks instead of two nested ones: its end is mispredicted once.
-        for _ in 0..width * height {
-            block %= BLOCKS * BLOCKS;
-            let bounds = buffer.blocks[block];
+        let columns = lane_numbers(simd);
+        let touched = columns.simd_ge(left) & columns.simd_le(right);
+        let mut hidden = true;
+        // The blocks of a row at once, without a branch on which of them hide it.
+        for row in top as usize..bottom as usize + 1 {
+            let row = row % BLOCKS;
+            let [farthest, nearest] = [&buffer.blocks.farthest, &buffer.blocks.nearest].each(
+                #[inline(always)]
+                |bounds| F32::simd_from(simd, bounds.as_chunks().0[row]),
+            );
+            let writes = U32::simd_from(simd, buffer.blocks.writes.as_chunks().0[row]);
+            let mut shows = touched & farthest.simd_lt(limit);
             // The farthest depth is recomputed only if the nearest one in the block lies in front of
             // the triangle. Otherwise the block cannot hide it, whatever its farthest depth is.
-            let farthest = if (bounds.writes >= WRITES) & (high < bounds.nearest) {
-                buffer.farthest_in(simd, block)
-            } else {
-                bounds.farthest
-            };
-            if farthest < limit {
-                hidden = false;
-                buffer.note_write(block, high);
+            let outdated = shows & writes.simd_ge(WRITES) & high.simd_lt(nearest);
+            if outdated.any_true() {
+                refresh_row(simd, buffer, row, outdated.to_bitmask());
+                shows &= F32::simd_from(simd, buffer.blocks.farthest.as_chunks().0[row]).simd_lt(limit);
             }
-            column += 1;
-            let ends = column == width;
-            block += if ends { BLOCKS + 1 - width as usize } else { 1 };
-            column = if ends { 0 } else { column };
+            hidden &= !shows.any_true();
+            buffer.note_writes(simd, row, shows, high);
         }
         hidden
+    }
+}
+
+/// Recomputes the farthest depths of blocks of a row, by their bits.
+#[inline(always)]
+fn refresh_row<S: Simd>(simd: S, buffer: &mut VisibilityBuffer, row: usize, mut columns: u64) {
+    while columns != 0 {
+        let column = columns.trailing_zeros() as usize % BLOCKS;
+        columns &= columns - 1;
+        buffer.farthest_in(simd, row * BLOCKS + column);
     }
 }
 

@@ -9,7 +9,7 @@
 //! Kernels write eight lanes at a time: [`store`], [`store_where`], [`store_each_where`].
 
 use super::area::{BLOCKS, GROUPS, TileArea};
-use crate::simd::{F32, LANES, Mask, Simd, U32, blended, lesser, prelude::*};
+use crate::simd::{F32, LANES, Mask, Simd, U32, blended, greater, lesser, prelude::*};
 
 /// No triangle: the background.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
@@ -18,16 +18,23 @@ pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
 /// triangle in the far plane is visible.
 pub(crate) const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
 
-/// Bounds of the depths in a block. They may be wider than necessary, never
+/// Bounds of the depths in each block, row by row. They may be wider than necessary, never
 /// narrower.
 #[derive(Clone, Copy)]
 pub(crate) struct BlockBounds {
-    pub(crate) farthest: f32,
-    pub(crate) nearest: f32,
+    pub(crate) farthest: [f32; BLOCKS * BLOCKS],
+    pub(crate) nearest: [f32; BLOCKS * BLOCKS],
     /// How many writes were noted since `farthest` was found: `micro` and `sliver` note one for each pixel,
     /// `quad` and `points` for each group, the others for each triangle (`tiny` and `multisample`
     /// before they know whether any sample is written).
-    pub(crate) writes: u32,
+    pub(crate) writes: [u32; BLOCKS * BLOCKS],
+}
+
+impl BlockBounds {
+    /// All samples at one depth.
+    fn of(depth: f32) -> Self {
+        Self { farthest: [depth; _], nearest: [depth; _], writes: [0; _] }
+    }
 }
 
 /// Depth and visible triangle of each sample of a tile: group by group, sample by sample,
@@ -36,7 +43,7 @@ pub(crate) struct VisibilityBuffer {
     pub(crate) depth: Vec<f32>,
     /// The index of the visible triangle among the tile's triangles, or [`NO_TRIANGLE`].
     pub(crate) visible: Vec<u32>,
-    pub(crate) blocks: [BlockBounds; BLOCKS * BLOCKS],
+    pub(crate) blocks: BlockBounds,
     /// No sample lies further away.
     pub(crate) farthest: f32,
     /// The block that this depth was found in. Depths of blocks only come nearer, so `farthest` stays as it is until that
@@ -53,11 +60,10 @@ pub(crate) struct VisibilityBuffer {
 
 impl VisibilityBuffer {
     pub(crate) fn new() -> Self {
-        let bounds = BlockBounds { farthest: 0.0, nearest: 0.0, writes: 0 };
         Self {
             depth: Vec::new(),
             visible: Vec::new(),
-            blocks: [bounds; BLOCKS * BLOCKS],
+            blocks: BlockBounds::of(0.0),
             farthest: 0.0,
             farthest_block: 0,
             stale: false,
@@ -87,7 +93,7 @@ impl VisibilityBuffer {
         area: &TileArea,
         depth: &[f32],
         visible: impl Iterator<Item = u32>,
-        bounds: &[BlockBounds; BLOCKS * BLOCKS],
+        bounds: &BlockBounds,
     ) {
         self.clear(area, 1);
         self.fill = None;
@@ -128,14 +134,12 @@ impl VisibilityBuffer {
             within.fill(visible);
             beside.fill(NO_TRIANGLE);
         }
-        self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
+        self.blocks = BlockBounds::of(depth);
     }
 
     /// Notes that any sample may have been written, at any depth.
     pub(crate) fn forget_nearest(&mut self) {
-        for bounds in &mut self.blocks {
-            (bounds.nearest, bounds.writes) = (f32::INFINITY, 1);
-        }
+        (self.blocks.nearest, self.blocks.writes) = ([f32::INFINITY; _], [1; _]);
     }
 
     /// Removes the triangles of samples outside the image.
@@ -179,17 +183,31 @@ impl VisibilityBuffer {
     /// Notes that samples of a block were written, none nearer than `nearest`.
     #[inline(always)]
     pub(crate) fn note_write(&mut self, block: usize, nearest: f32) {
-        let bounds = &mut self.blocks[block];
-        bounds.writes = bounds.writes.wrapping_add(1);
-        bounds.nearest = if nearest > bounds.nearest { nearest } else { bounds.nearest };
+        let bounds = &mut self.blocks;
+        bounds.writes[block] = bounds.writes[block].wrapping_add(1);
+        let there = bounds.nearest[block];
+        bounds.nearest[block] = if nearest > there { nearest } else { there };
+    }
+
+    /// The same for some blocks of a row.
+    #[inline(always)]
+    pub(crate) fn note_writes<S: Simd>(&mut self, simd: S, row: usize, blocks: Mask<S>, nearest: F32<S>) {
+        let bits = blocks.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));
+        let writes = &mut self.blocks.writes.as_chunks_mut().0[row];
+        // One more where all bits are set.
+        *writes = (U32::simd_from(simd, *writes) - bits).into();
+        let bounds = &mut self.blocks.nearest.as_chunks_mut().0[row];
+        let there = F32::simd_from(simd, *bounds);
+        let nearer = greater(nearest, there).bitcast();
+        *bounds = blended(bits, there.bitcast(), nearer).bitcast::<F32<S>>().into();
     }
 
     /// Notes that all samples of a block lie at least as near as `farthest`.
     #[inline(always)]
     pub(crate) fn note_cover(&mut self, block: usize, farthest: f32) {
-        let bounds = &mut self.blocks[block];
-        if farthest > bounds.farthest {
-            bounds.farthest = farthest;
+        let there = &mut self.blocks.farthest[block];
+        if farthest > *there {
+            *there = farthest;
             self.stale |= block == self.farthest_block;
         }
     }
@@ -197,16 +215,16 @@ impl VisibilityBuffer {
     /// The farthest depth of a block, recomputed if something was written since.
     #[inline(always)]
     pub(crate) fn farthest_in<S: Simd>(&mut self, simd: S, block: usize) -> f32 {
-        if self.blocks[block].writes > 0 {
+        if self.blocks.writes[block] > 0 {
             self.refresh(simd, block);
         }
-        self.blocks[block].farthest
+        self.blocks.farthest[block]
     }
 
     /// Recomputes the farthest depth of the block that decides that of the tile. Returns whether it is nearer now.
     #[inline(always)]
     pub(crate) fn refresh_farthest<S: Simd>(&mut self, simd: S) -> bool {
-        let may_be_nearer = self.fill.is_none() && self.blocks[self.farthest_block].writes > 0;
+        let may_be_nearer = self.fill.is_none() && self.blocks.writes[self.farthest_block] > 0;
         if may_be_nearer {
             self.refresh(simd, self.farthest_block);
         }
@@ -237,8 +255,8 @@ impl VisibilityBuffer {
         }
         let [a, b, c, d] = least;
         let farthest = least_of(lesser(lesser(a, b), lesser(c, d)).into());
-        self.stale |= block == self.farthest_block && farthest > self.blocks[block].farthest;
-        self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
+        self.stale |= block == self.farthest_block && farthest > self.blocks.farthest[block];
+        (self.blocks.farthest[block], self.blocks.writes[block]) = (farthest, 0);
     }
 
     /// The farthest depth of the tile, recomputed from the blocks' if that of the farthest one
@@ -250,7 +268,7 @@ impl VisibilityBuffer {
             let [columns, rows] = area.size.map(|side| side.div_ceil(8));
             let blocks = (0..rows).flat_map(|row| (0..columns).map(move |column| row * BLOCKS + column));
             (self.farthest, self.farthest_block) = blocks.fold((f32::INFINITY, 0), |least, block| {
-                let farthest = self.blocks[block].farthest;
+                let farthest = self.blocks.farthest[block];
                 if farthest < least.0 { (farthest, block) } else { least }
             });
         }

@@ -150,7 +150,7 @@ impl TileRasterizer<'_> {
     ) {
         let group = TileArea::group_of([column as usize, row as usize]);
         let block = group / GROUPS;
-        if self.hierarchical && self.hides(buffer.blocks[block].farthest, walk.quad.nearest()) {
+        if self.hierarchical && self.hides(buffer.blocks.farthest[block], walk.quad.nearest()) {
             return;
         }
         counts.groups += 1;
