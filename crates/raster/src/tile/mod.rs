@@ -16,8 +16,9 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `state` | what a worker holds from tile to tile: the lists of the tile's triangles by kind of surface, the budget for equal depths, the order of keys |
-//! | `depth_order` | opaque triangles from front to back, where many lie above each other |
+//! | `front_to_back` | opaque triangles from front to back, where many lie above each other |
 //! | `visibility` | **the order of the kinds of surface, and the table of which kernel draws a triangle** |
+//! | `corners` | the vertices of up to eight triangles |
 //! | `eight` | eight small triangles prepared together, and the limits of the kernels |
 //! | `triangle` | one triangle prepared for the tile, whatever its size |
 //! | `micro` | kernel: up to eight small triangles of at most 4×4 pixels each, one sample per pixel; a lane is a triangle; also the list of pixels that `micro` and `sliver` find, and the test of their depths |
@@ -37,9 +38,10 @@
 //! and depths, so the choice of a kernel never changes a byte.
 
 mod cached;
-mod depth_order;
+mod corners;
 mod depth_query;
 mod eight;
+mod front_to_back;
 mod masked;
 mod micro;
 mod multisample;

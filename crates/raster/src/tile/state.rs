@@ -8,8 +8,8 @@
 //! later one is never visible at equal depth (`visibility`). Masked and translucent ones are compared by their
 //! ranks in that order.
 
-use super::depth_order::DepthOrder;
 use super::depth_query::TileView;
+use super::front_to_back::FrontToBack;
 use super::masked::MaskQueue;
 use crate::BlendMode;
 use crate::bin::TriangleRef;
@@ -28,7 +28,7 @@ pub(crate) struct TileState {
     pub(crate) buffer: VisibilityBuffer,
     pub(crate) ties: Ties,
     pub(super) key_order: KeyOrder,
-    pub(super) depth_order: DepthOrder,
+    pub(super) front_to_back: FrontToBack,
     /// Triangles in another order, where that is needed.
     pub(super) reordered: Vec<TriangleRef>,
     /// Where each triangle stands in that order.
@@ -43,7 +43,7 @@ impl TileState {
             buffer: VisibilityBuffer::new(),
             ties: Ties::default(),
             key_order: KeyOrder::default(),
-            depth_order: DepthOrder::default(),
+            front_to_back: FrontToBack::default(),
             reordered: Vec::new(),
             ranks: Vec::new(),
             mask_queue: MaskQueue::default(),

@@ -21,6 +21,7 @@
 //! lies in the tile. (`sliver` costs up to one per cent where a frame has few slivers. It is for meshes with many, such as
 //! one of which single vertices are dragged far.)
 
+use super::corners::{corners_of_one, corners_of_several};
 use super::eight::{EightTriangles, Slivers};
 use super::micro::Covered;
 use super::multisample::EdgeOrigins;
@@ -34,10 +35,9 @@ use super::{Surfaces, TileState, masked};
 use crate::Stats;
 use crate::bin::TriangleRef;
 use crate::shade::Shading;
-use crate::simd::{InlineMap, LANES, Simd, at_level, lanes_of};
+use crate::simd::{LANES, Simd, at_level};
 use crate::stats::Counts;
 use crate::tile_buffer::{NO_TRIANGLE, TileArea, VisibilityBuffer};
-use crate::vertex::ScreenVertex;
 use crate::view::FrameView;
 use std::cell::Cell;
 use std::ops::Range;
@@ -120,8 +120,8 @@ pub(super) fn cover_more(
 /// Draws the opaque triangles, which come first in the tile's list. If there are too many ties, draws
 /// them again in the order of their keys.
 fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, opaque: usize) -> Counts {
-    let TileState { triangles, buffer, ties, key_order, depth_order, reordered, .. } = state;
-    let is_sorted = depth_order.sort(frame, area, &mut triangles[..opaque], reordered);
+    let TileState { triangles, buffer, ties, key_order, front_to_back, reordered, .. } = state;
+    let is_sorted = front_to_back.sort(frame, area, &mut triangles[..opaque], reordered);
     let triangles = &triangles[..opaque];
     // Ties of one triangle are mostly with the same other one.
     let last = Cell::new(([NO_TRIANGLE; 2], false));
@@ -138,7 +138,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     let in_order = frame.plan.ordinals_are_keys && !is_sorted;
     let rasterizer = TileRasterizer { in_order, ..TileRasterizer::new(frame, area, ties, &precedes) };
     let mut counts = Counts::default();
-    let nearest = depth_order.nearest();
+    let nearest = front_to_back.nearest();
     if (TilePass { frame, rasterizer, triangles, nearest, buffer, counts: &mut counts }).cover_all(0) {
         return counts;
     }
@@ -160,7 +160,7 @@ struct TilePass<'p> {
     frame: &'p FrameView<'p>,
     rasterizer: TileRasterizer<'p>,
     triangles: &'p [TriangleRef],
-    /// See [`DepthOrder::nearest`](super::depth_order::DepthOrder::nearest).
+    /// See [`FrontToBack::nearest`](super::front_to_back::FrontToBack::nearest).
     nearest: &'p [f32],
     buffer: &'p mut VisibilityBuffer,
     counts: &'p mut Counts,
@@ -355,43 +355,4 @@ fn prepare_batch<S: Simd>(simd: S, pass: &TilePass<'_>, range: Range<usize>) -> 
             },
         )
     }
-}
-
-/// The vertices of up to eight whole primitives of one draw.
-#[inline(always)]
-pub(super) fn corners_of_one<'f>(
-    frame: &FrameView<'f>,
-    triangles: &[TriangleRef],
-) -> [[&'f ScreenVertex; LANES]; 3] {
-    let draw = frame.draw_of(triangles[0]);
-    let plan = &frame.plan.draws[draw];
-    let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw()].geometry);
-    let corners: [[u32; 3]; LANES] = lanes_of(
-        #[inline(always)]
-        |lane| {
-            let triangle = triangles.get(lane).unwrap_or(&triangles[0]);
-            geometry.corners(triangle.ordinal - plan.ordinals.start)
-        },
-    );
-    [0, 1, 2].each(
-        #[inline(always)]
-        |corner| {
-            corners.each(
-                #[inline(always)]
-                |corners| vertices.get(corners[corner]),
-            )
-        },
-    )
-}
-
-/// The vertices of up to eight whole primitives of several draws.
-///
-/// Not inlined: few tiles need it.
-#[inline(never)]
-fn corners_of_several<'f>(
-    frame: &FrameView<'f>,
-    triangles: &[TriangleRef],
-) -> [[&'f ScreenVertex; LANES]; 3] {
-    let corners = lanes_of(|lane| frame.corners(*triangles.get(lane).unwrap_or(&triangles[0])));
-    [0, 1, 2].each(|corner| corners.each(|corners| corners[corner]))
 }

@@ -7,7 +7,7 @@
 //! bucket keeps the order of the list. A tile is sorted only if a few of its triangles suggest that this pays, and only if
 //! all are uncut and of one draw, because shading requires draws to be in order and lets triangles of a draw have any order.
 
-use super::visibility::corners_of_one;
+use super::corners::corners_of_one;
 use crate::bin::TriangleRef;
 use crate::simd::{I32, InlineMap, LANES, Simd, append, at_level, prelude::*};
 use crate::tile_buffer::TileArea;
@@ -29,14 +29,14 @@ const BUCKETS: usize = 256;
 
 /// The order of a tile's triangles from front to back.
 #[derive(Default)]
-pub(super) struct DepthOrder {
+pub(super) struct FrontToBack {
     /// The bits of each triangle's nearest depth. (Those of numbers that are not negative are in the order of the numbers.)
     depths: Vec<i32>,
     /// For each of the sorted triangles a depth such that neither it nor any later one is nearer.
     nearest: Vec<f32>,
 }
 
-impl DepthOrder {
+impl FrontToBack {
     /// Sorts a tile's opaque triangles if that pays; `spare` is memory. Returns whether it has.
     pub(super) fn sort(
         &mut self,
