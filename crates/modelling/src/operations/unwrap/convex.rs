@@ -59,7 +59,7 @@ fn edge_length(chart: &UvChart, border: &[u32], i: usize) -> f64 {
 }
 
 /// The first of the longest loops.
-fn longest_loop(chart: &UvChart) -> usize {
+pub(super) fn longest_loop(chart: &UvChart) -> usize {
     let mut longest = (0, length(chart, &chart.loops[0]));
     for (i, border) in chart.loops.iter().enumerate().skip(1) {
         let length = length(chart, border);

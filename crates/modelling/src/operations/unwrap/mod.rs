@@ -1,8 +1,8 @@
 //! Unwrapping: charts of a surface are laid flat, and packed into the image as islands.
 //!
 //! `charts` cuts the surface, `conformal` and `convex` lay a chart flat by means of `factor`, `stretch` improves a
-//! layout, `injective` tests it, `pinned` lays charts around given coordinates, `pack` arranges the shapes of islands
-//! (`mask`) in the image (`occupancy`).
+//! layout, with a `scaffold` if its border is a circle, `injective` tests it, `pinned` lays charts around given
+//! coordinates, `pack` arranges the shapes of islands (`mask`) in the image (`occupancy`).
 
 mod average_scale;
 mod block;
@@ -23,6 +23,7 @@ mod pinned;
 #[cfg(test)]
 mod pinned_tests;
 mod rectangle;
+mod scaffold;
 mod smart;
 mod stitch;
 mod stretch;
@@ -199,7 +200,7 @@ fn lay_flat(chart: &UvChart, settings: &UnwrapSettings, memory: u64) -> Result<(
     let is_requested = settings.method == UnwrapMethod::Convex;
     let steps = if is_requested { steps } else { steps.max(STEPS_FROM_CIRCLE) };
     let mut layout = convex::convex(chart, memory)?;
-    stretch::minimize_stretch(chart, &mut layout, steps, memory)?;
+    scaffold::minimize_stretch_from_circle(chart, &mut layout, steps, memory)?;
     Ok((layout, is_requested))
 }
 

@@ -9,7 +9,7 @@
 //! as far as no triangle is turned over (Smith and Schaefer, section 3.3). One that would let the border cross
 //! itself, or not decrease the energy, is halved.
 
-use trigon_math::{DMat2, DVec2};
+use trigon_math::{DMat2, DVec2, Orientation, orientation};
 
 use super::charts::{FlatTriangle, UvChart};
 use super::factor::{MatrixPattern, NoFactor, conjugate, times};
@@ -36,37 +36,44 @@ pub(super) fn minimize_stretch(
     if iterations == 0 || turned_over(chart, layout) > 0 {
         return Ok(());
     }
-    let triangles: Vec<StretchTriangle> = chart.flat_triangles().iter().map(StretchTriangle::new).collect();
+    let triangles = StretchTriangle::of_chart(chart);
     if chart.held.is_empty() {
         scale_to_least(&triangles, layout);
     }
-    let system = System::new(chart, &triangles, memory)?;
+    // All but the first may move if none is held.
+    let held = if chart.held.is_empty() { &[0][..] } else { &chart.held };
+    let system = System::new(layout.len(), held, &triangles, memory)?;
     let (mut energy, mut gain) = (energy_of(&triangles, layout), f64::INFINITY);
     for _ in 0..iterations {
-        let is_far = energy > FAR_ENERGY && gain > FAR_GAIN * energy;
-        let model = if is_far { Model::Far } else { Model::Near };
+        let model = Model::at(energy, gain);
         let offsets = match system.offsets(&triangles, layout, model) {
             // Triangles are so flat in the layout that their equations drown all others.
             Err(NoFactor::NotPositive) => break,
             offsets => offsets?,
         };
-        let Some(step) = step(chart, &triangles, layout, &offsets, energy) else { break };
+        let is_allowed = |layout: &[DVec2]| is_injective(chart, layout);
+        let Some(step) = step(&triangles, layout, &offsets, is_allowed) else { break };
         gain = energy - step.energy;
         *layout = step.layout;
         energy = step.energy;
-        if gain <= LEAST_GAIN * energy {
+        if is_little(gain, energy) {
             break;
         }
     }
     Ok(())
 }
 
+/// Whether a step gained so little that it was the last one.
+pub(super) fn is_little(gain: f64, energy: f64) -> bool {
+    gain <= LEAST_GAIN * energy
+}
+
 /// A triangle and its map into the layout: a z + b conj(z) of complex numbers, but for a translation.
-struct StretchTriangle {
+pub(super) struct StretchTriangle {
     vertices: [u32; 3],
     /// By corner: the derivative of a by its position in the layout, that of b is the conjugate.
     gradients: [DVec2; 3],
-    area: f64,
+    pub(super) area: f64,
 }
 
 /// The two parts of a map: that which preserves angles, and that which turns them round.
@@ -77,12 +84,29 @@ struct MapParts {
 }
 
 impl StretchTriangle {
-    fn new(flat: &FlatTriangle) -> Self {
+    pub(super) fn of_chart(chart: &UvChart) -> Vec<Self> {
+        let new = |flat: FlatTriangle| Self::new(flat.vertices, flat.points, flat.double_area() / 2.0);
+        chart.flat_triangles().into_iter().map(new).collect()
+    }
+
+    /// With the shape that it has in a layout, and a weight instead of its area.
+    pub(super) fn at_rest(vertices: [u32; 3], layout: &[DVec2], weight: f64) -> Self {
+        Self::new(vertices, vertices.map(|vertex| layout[vertex as usize]), weight)
+    }
+
+    fn new(vertices: [u32; 3], shape: [DVec2; 3], area: f64) -> Self {
+        let double_area = (shape[1] - shape[0]).perp_dot(shape[2] - shape[0]);
         let gradient = |corner: usize| {
-            let opposite = flat.points[(corner + 2) % 3] - flat.points[(corner + 1) % 3];
-            conjugate(opposite.perp()) / (2.0 * flat.double_area())
+            let opposite = shape[(corner + 2) % 3] - shape[(corner + 1) % 3];
+            conjugate(opposite.perp()) / (2.0 * double_area)
         };
-        Self { vertices: flat.vertices, gradients: [0, 1, 2].map(gradient), area: flat.double_area() / 2.0 }
+        Self { vertices, gradients: [0, 1, 2].map(gradient), area }
+    }
+
+    /// Whether it is not turned over.
+    pub(super) fn is_right(&self, layout: &[DVec2]) -> bool {
+        let [a, b, c] = self.in_layout(layout);
+        orientation(a, b, c) == Orientation::CounterClockwise
     }
 
     fn in_layout(&self, layout: &[DVec2]) -> [DVec2; 3] {
@@ -110,7 +134,7 @@ impl MapParts {
 }
 
 /// The mean energy over the surface: at least 4.
-fn energy_of(triangles: &[StretchTriangle], layout: &[DVec2]) -> f64 {
+pub(super) fn energy_of(triangles: &[StretchTriangle], layout: &[DVec2]) -> f64 {
     let (mut sum, mut area) = (0.0, 0.0);
     for triangle in triangles {
         let [forward, backward] = triangle.parts(layout).energies();
@@ -121,7 +145,7 @@ fn energy_of(triangles: &[StretchTriangle], layout: &[DVec2]) -> f64 {
 }
 
 /// Scales a layout so that its energy is least.
-fn scale_to_least(triangles: &[StretchTriangle], layout: &mut [DVec2]) {
+pub(super) fn scale_to_least(triangles: &[StretchTriangle], layout: &mut [DVec2]) {
     let mut sums = DVec2::ZERO;
     for triangle in triangles {
         sums += triangle.area * DVec2::from_array(triangle.parts(layout).energies());
@@ -134,11 +158,18 @@ fn scale_to_least(triangles: &[StretchTriangle], layout: &mut [DVec2]) {
 
 /// By which matrix the energy is replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Model {
+pub(super) enum Model {
     /// One that leads to an isometry at once, if triangles were independent.
     Far,
     /// The Hessian.
     Near,
+}
+
+impl Model {
+    /// For a mean energy, and how much the last step gained.
+    pub(super) fn at(energy: f64, gain: f64) -> Self {
+        if energy > FAR_ENERGY && gain > FAR_GAIN * energy { Self::Far } else { Self::Near }
+    }
 }
 
 /// First derivatives of a triangle's energy, and those second ones that are used.
@@ -207,7 +238,7 @@ struct CornerRows {
 /// The least curvature of a rotation: that of an isometry has none.
 const LEAST_TURNING: f64 = 1e-3;
 
-/// The vertices that a step may move: all that are not held, or all but the first if none is.
+/// The vertices that a step may move: all that are not held.
 struct Unknowns {
     /// By vertex: the number of its unknown, `None` where it stays.
     by_vertex: Vec<Option<u32>>,
@@ -218,15 +249,14 @@ struct Unknowns {
 const PAIRS: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
 
 impl Unknowns {
-    fn new(chart: &UvChart) -> Self {
-        let held = if chart.held.is_empty() { &[0][..] } else { &chart.held };
+    fn new(vertices: usize, held: &[u32]) -> Self {
         let mut count = 0;
         let unknown = |vertex| {
             let is_free = held.binary_search(&vertex).is_err();
             count += u32::from(is_free);
             is_free.then(|| count - 1)
         };
-        let by_vertex = (0..chart.points.len() as u32).map(unknown).collect();
+        let by_vertex = (0..vertices as u32).map(unknown).collect();
         Self { by_vertex, count: count as usize }
     }
 
@@ -242,21 +272,27 @@ impl Unknowns {
 }
 
 /// The equations of a step.
-struct System {
+pub(super) struct System {
     pattern: MatrixPattern,
     unknowns: Unknowns,
 }
 
 impl System {
-    fn new(chart: &UvChart, triangles: &[StretchTriangle], memory: u64) -> Result<Self, NoFactor> {
-        let unknowns = Unknowns::new(chart);
+    /// Held vertices are in ascending order.
+    pub(super) fn new(
+        vertices: usize,
+        held: &[u32],
+        triangles: &[StretchTriangle],
+        memory: u64,
+    ) -> Result<Self, NoFactor> {
+        let unknowns = Unknowns::new(vertices, held);
         let positions: Vec<[u32; 2]> =
             triangles.iter().flat_map(|triangle| unknowns.entries(triangle)).collect();
         Ok(Self { pattern: MatrixPattern::new::<DMat2>(unknowns.count, &positions, memory)?, unknowns })
     }
 
     /// Where the vertices should go from their layout: zero for those that stay.
-    fn offsets(
+    pub(super) fn offsets(
         &self,
         triangles: &[StretchTriangle],
         layout: &[DVec2],
@@ -285,25 +321,25 @@ impl System {
 }
 
 /// A layout that is better than the last.
-struct StretchStep {
-    layout: Vec<DVec2>,
-    energy: f64,
+pub(super) struct StretchStep {
+    pub(super) layout: Vec<DVec2>,
+    pub(super) energy: f64,
 }
 
 /// Goes along offsets as far as possible; `None` if nothing is gained.
-fn step(
-    chart: &UvChart,
+pub(super) fn step(
     triangles: &[StretchTriangle],
     layout: &[DVec2],
     offsets: &[DVec2],
-    energy: f64,
+    is_allowed: impl Fn(&[DVec2]) -> bool,
 ) -> Option<StretchStep> {
+    let energy = energy_of(triangles, layout);
     let mut length = longest_step(triangles, layout, offsets);
     for _ in 0..HALVINGS {
         let next: Vec<DVec2> =
             layout.iter().zip(offsets).map(|(point, offset)| *point + *offset * length).collect();
         let next_energy = energy_of(triangles, &next);
-        if next_energy < energy && is_injective(chart, &next) {
+        if next_energy < energy && is_allowed(&next) {
             return Some(StretchStep { layout: next, energy: next_energy });
         }
         length /= 2.0;
