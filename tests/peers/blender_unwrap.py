@@ -3,13 +3,15 @@
 
     python tests/peers/blender_unwrap.py MODELS… [--charts 12] [--rounds 3] [--json FILE]
 
-needs Python 3.11 with bpy, numpy and trimesh, and `cargo build --release -p trigon-modelling --example unwrap_models`.
+needs Python 3.11 with bpy, numpy, trimesh and xatlas, and `cargo build --release -p trigon-modelling --example unwrap_models`.
 MODELS are files that trimesh reads, each merged to one mesh of triangles in a cube of 2 m. Charts grow from faces that are
 far from one another, and are divided until each is a disc; their borders are the seams. Both unwrap with minimum stretch,
 and Blender conformally and by angles, too. Only the operation itself is timed. The measures are computed here from texture
 coordinates alone: triangles turned over, islands that overlap themselves, L2 stretch (P. Sander and others, 2001), the mean
 difference of angles, and which part of the bounding square is covered. Blender packs trigon's islands again with the same
-margin, as concave shapes.
+margin, as concave shapes, and so does xatlas, in an image of about 1024 pixels, of which not the square counts but the
+rectangle. xatlas cannot be given seams. It gets each chart as a mesh of its own, with all of its costs off; the charts that
+it leaves whole are compared.
 """
 
 import argparse
@@ -25,6 +27,7 @@ import time
 import bpy
 import numpy
 import trimesh
+import xatlas
 
 EXAMPLE = "target/release/examples/unwrap_models"
 METHODS = ["MINIMUM_STRETCH", "CONFORMAL", "ANGLE_BASED"]
@@ -293,6 +296,48 @@ def measure(points, faces, chart, uv):
     }
 
 
+def xatlas_packs(faces, chart, uv, margin):
+    """Seconds of packing given islands, and which part of the rectangle around them is covered."""
+    keys = numpy.repeat(chart, 3).astype(numpy.int64) * (int(faces.max()) + 1) + faces.ravel()
+    _, first, corners = numpy.unique(keys, return_index=True, return_inverse=True)
+    atlas = xatlas.Atlas()
+    materials = chart.astype(numpy.uint32).reshape(-1, 1)
+    points = uv.reshape(-1, 2)[first].astype(numpy.float32)
+    atlas.add_uv_mesh(points, corners.reshape(-1, 3).astype(numpy.uint32), materials)
+    options = xatlas.PackOptions()
+    options.padding = round(margin * 1024)
+    options.texels_per_unit = 1024 * (0.6 / numpy.abs(signed_areas(uv)).sum()) ** 0.5
+    start = time.perf_counter()
+    atlas.generate(xatlas.ChartOptions(), options)
+    seconds = time.perf_counter() - start
+    _, corners, points = atlas[0]
+    return seconds, float(numpy.abs(signed_areas(points[corners].reshape(-1, 3, 2).astype(float))).sum())
+
+
+def xatlas_unwraps(points, faces, chart):
+    """The charts that it leaves whole, and texture coordinates of all; those of the others are 0."""
+    options = xatlas.ChartOptions()
+    options.max_cost = 1e30
+    for weight in ["normal_deviation", "roundness", "straightness", "normal_seam", "texture_seam"]:
+        setattr(options, weight + "_weight", 0)
+    uv, whole = numpy.zeros((len(faces), 3, 2)), []
+    for label in numpy.unique(chart):
+        part = numpy.flatnonzero(chart == label)
+        used, corners = numpy.unique(faces[part], return_inverse=True)
+        atlas = xatlas.Atlas()
+        atlas.add_mesh(points[used], corners.reshape(-1, 3).astype(numpy.uint32))
+        atlas.generate(options, xatlas.PackOptions())
+        if atlas.get_mesh_chart_count(0) == 1:
+            whole.append(label)
+            _, corners, laid = atlas[0]
+            size = numpy.array([atlas.width, atlas.height])
+            laid = laid[corners].reshape(-1, 3, 2) * size
+            surface = points[faces[part]].astype(float)
+            sides = numpy.cross(surface[:, 1] - surface[:, 0], surface[:, 2] - surface[:, 0])
+            uv[part] = laid * (numpy.linalg.norm(sides, axis=1).sum() / 2 / numpy.abs(signed_areas(laid)).sum()) ** 0.5
+    return whole, uv
+
+
 def compare(program, folder, path, arguments):
     loaded = load(path, arguments.triangles)
     if loaded is None:
@@ -324,9 +369,21 @@ def compare(program, folder, path, arguments):
     uv = numpy.loadtxt(folder / "uv.txt").reshape(-1, 3, 2)
     row["trigon"] = ours | rated(uv) | {"seconds": min(times["trigon"])}
     if not arguments.no_packing:
-        seconds, uv = blender_packs(prepare_blender(points, faces, seams), uv, arguments.margin)
-        row["packed"] = {"seconds": seconds, "density": rated(uv)["density"]}
-    return row
+        seconds, packed = blender_packs(prepare_blender(points, faces, seams), uv, arguments.margin)
+        row["packed"] = {"seconds": seconds, "density": rated(packed)["density"]}
+    return row | beside_xatlas(points, faces, partition.chart, uv, arguments.margin)
+
+
+def beside_xatlas(points, faces, chart, uv, margin):
+    seconds, density = xatlas_packs(faces, chart, uv, margin)
+    whole, theirs = xatlas_unwraps(points, faces, chart)
+    found = {"xatlas_packed": {"seconds": seconds, "density": density}, "xatlas_charts": len(whole)}
+    among = numpy.isin(chart, whole)
+    if whole:
+        for name, layout in [("trigon", uv), ("xatlas", theirs)]:
+            rated = measure(points, faces[among], chart[among], layout[among])
+            found[name + "_in_xatlas_charts"] = {key: rated[key] for key in ["stretch", "angle", "overlapping"]}
+    return found
 
 
 def line(row):
@@ -339,21 +396,32 @@ def line(row):
         f" | {ours['angle']:.4f} {theirs['angle']:.4f} {ours['angle'] / max(theirs['angle'], 1e-9):.3f}"
         f" | {ours['seconds']:.3f} {theirs['seconds']:.3f} {ours['seconds'] / theirs['seconds']:.2f}"
         f" | {ours['density']:.3f} {theirs['density']:.3f} {packed['density']:.3f}"
-        f" {ours['pack_seconds']:.3f} {packed['seconds']:.3f}"
+        f" {row['xatlas_packed']['density']:.3f}"
+        f" {ours['pack_seconds']:.3f} {packed['seconds']:.3f} {row['xatlas_packed']['seconds']:.3f}"
     )
 
 
 def report(rows):
     print("model triangles charts | trigon: turned over, overlapping, not conformal | Blender: turned over, overlapping")
-    print("| L2 stretch: trigon, Blender, ratio | angles | seconds | density: trigon, Blender's unwrap, packed by Blender; s")
+    print("| L2 stretch: trigon, Blender, ratio | angles | seconds | density: trigon, Blender's unwrap, packed by Blender, by xatlas; s")
     for row in rows:
         print(line(row))
     for name in ["stretch", "angle", "seconds"]:
         ratios = [row["trigon"][name] / max(row["MINIMUM_STRETCH"][name], 1e-9) for row in rows]
         print(f"{name}: median of ratios {statistics.median(ratios):.3f}, largest {max(ratios):.3f}")
-    ratios = [row["trigon"]["density"] / row["packed"]["density"] for row in rows if "packed" in row]
-    if ratios:
-        print(f"density: median of ratios {statistics.median(ratios):.3f}, least {min(ratios):.3f}")
+    for packed in ["packed", "xatlas_packed"]:
+        # Above 1 islands lie on one another.
+        packings = [row for row in rows if packed in row and row[packed]["density"] < 1]
+        ratios = [row["trigon"]["density"] / row[packed]["density"] for row in packings]
+        if ratios:
+            print(f"density, {packed}: median of ratios {statistics.median(ratios):.3f}, least {min(ratios):.3f}")
+    both = [[row[name + "_in_xatlas_charts"] for name in ["trigon", "xatlas"]] for row in rows if row["xatlas_charts"]]
+    print(f"charts that xatlas leaves whole: {sum(row['xatlas_charts'] for row in rows)}, in {len(both)} models; of these")
+    print(f"{sum(theirs['overlapping'] for _, theirs in both)} overlap themselves")
+    for name in ["stretch", "angle"]:
+        ratios = [ours[name] / max(theirs[name], 1e-9) for ours, theirs in both]
+        if ratios:
+            print(f"{name} in them: median of ratios {statistics.median(ratios):.3f}, largest {max(ratios):.3f}")
 
 
 def main():
