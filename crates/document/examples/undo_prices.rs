@@ -58,6 +58,7 @@ const LEAVE: &str = r#"{ "op": "leave_edit_mode" }"#;
 
 fn rows() -> Vec<Row> {
     let row = |name, before, command| Row { name, before, command };
+    let diagonal: Vec<Value> = (0..=300).map(|i| json!({ "at": "vertex", "vertex": 302 * i })).collect();
     let mut rows = vec![
         row("unwrap", &[SPHERE, FACES, HALF], json!({ "op": "unwrap" })),
         row("unwrap, 10 steps", &[SPHERE, FACES, HALF], json!({ "op": "unwrap", "minimize_stretch": 10 })),
@@ -121,12 +122,7 @@ fn rows() -> Vec<Row> {
         row("tris_to_quads", &[SPHERE, FACES], json!({ "op": "tris_to_quads" })),
         row("dissolve_flat", &[GRID, FACES], json!({ "op": "dissolve_flat" })),
         row("duplicate", &[TORUS, FACES], json!({ "op": "duplicate" })),
-        row(
-            "knife",
-            &[GRID, FACES],
-            json!({ "op": "knife", "strokes": [
-            [{ "at": "vertex", "vertex": 100 }, { "at": "vertex", "vertex": 90500 }]] }),
-        ),
+        row("knife", &[GRID, FACES], json!({ "op": "knife", "strokes": [diagonal] })),
     ];
     rows.extend(["union", "difference", "intersection"].map(|operation| Row {
         name: operation,
