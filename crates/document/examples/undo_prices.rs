@@ -152,9 +152,13 @@ fn prepared(row: &Row) -> Document {
 }
 
 fn faces(document: &Document) -> usize {
-    let of_edited = |id| document.mesh(id).map(|mesh| mesh.face_count());
-    let meshes = document.nodes().meshes().iter();
-    meshes.map(|(id, mesh)| of_edited(id).unwrap_or_else(|| mesh.mesh().face_count())).sum()
+    let scene = document.nodes();
+    let used = scene.nodes().iter().filter_map(|(_, node)| node.mesh);
+    let count = |id| match document.mesh(id) {
+        Some(mesh) => mesh.face_count(),
+        None => scene.meshes().get(id).map_or(0, |asset| asset.mesh().face_count()),
+    };
+    used.map(count).sum()
 }
 
 fn milliseconds(work: impl FnOnce(&mut Document), document: &mut Document) -> f64 {
