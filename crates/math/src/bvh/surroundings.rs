@@ -182,8 +182,8 @@ impl Hemisphere {
     #[inline(always)]
     fn heights<S: Simd>(&self, simd: S, points: &[Eight; 3]) -> f32x8<S> {
         let mut heights = f32x8::splat(simd, 0.0);
-        for axis in 0..3 {
-            heights += (f32x8::simd_from(simd, points[axis]) - self.origin[axis]) * self.normal[axis];
+        for ((points, origin), normal) in points.iter().zip(self.origin).zip(self.normal) {
+            heights += (f32x8::simd_from(simd, *points) - origin) * normal;
         }
         heights
     }
