@@ -167,9 +167,9 @@ fn split(items: &mut [Item]) -> usize {
 /// Moves the items that belong to the first side before the others, and returns the number of the first of these.
 fn partition(items: &mut [Item], is_first: impl Fn(&Item) -> bool) -> usize {
     let mut first = 0;
-    for place in 0..items.len() {
-        if is_first(&items[place]) {
-            items.swap(first, place);
+    for index in 0..items.len() {
+        if is_first(&items[index]) {
+            items.swap(first, index);
             first += 1;
         }
     }

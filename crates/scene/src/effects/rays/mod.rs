@@ -174,8 +174,8 @@ impl RayScene {
             }
         };
         let is_turned = !(direction[0].simd_eq(0.0) & direction[1].simd_eq(0.0) & direction[2].simd_eq(0.0));
-        let asked = !arriving.share.simd_le(0.0) & is_turned;
-        let active = asked.to_bitmask() as u32;
+        let requested = !arriving.share.simd_le(0.0) & is_turned;
+        let active = requested.to_bitmask() as u32;
         if active != 0 {
             note(Work::ShadowRay);
         }
