@@ -77,8 +77,7 @@ struct TracedScene<'a> {
 
 /// Eight sight rays in flight.
 struct Walk {
-    origins: [Vec3; LANES],
-    directions: [Vec3; LANES],
+    rays: [Ray; LANES],
     /// The fraction of their light that reaches the eye.
     weights: [Vec3; LANES],
     light: [Vec3; LANES],
@@ -118,8 +117,10 @@ impl LightingEnvironment {
             }
         };
         let mut walk = Walk {
-            origins: lanes_of(|lane| Vec3::new(ox[lane], oy[lane], oz[lane])),
-            directions: lanes_of(|lane| Vec3::new(x[lane], y[lane], z[lane])),
+            rays: lanes_of(|lane| Ray {
+                origin: Vec3::new(ox[lane], oy[lane], oz[lane]),
+                direction: Vec3::new(x[lane], y[lane], z[lane]),
+            }),
             weights: [Vec3::ONE; LANES],
             light: [Vec3::ZERO; LANES],
             alive: lanes_of(|lane| active >> lane & 1 != 0),
@@ -161,7 +162,7 @@ impl LightingEnvironment {
             || {
                 let lanes = |of: &dyn Fn(&SurfaceHit, Vec3) -> Vec3| -> V3<S> {
                     let values: [Vec3; LANES] = lanes_of(|lane| {
-                        met[lane].as_ref().map_or(Vec3::ZERO, |met| of(met, walk.directions[lane]))
+                        met[lane].as_ref().map_or(Vec3::ZERO, |met| of(met, walk.rays[lane].direction))
                     });
                     [0, 1, 2].map(|axis| F32::simd_from(simd, values.map(|value| value[axis])))
                 };
@@ -204,22 +205,18 @@ impl TracedScene<'_> {
 }
 
 impl Walk {
-    fn ray(&self, lane: usize) -> Ray {
-        Ray { origin: self.origins[lane], direction: self.directions[lane] }
-    }
-
     /// The next surfaces. A ray that comes straight from the eye passes the same gaps as the eye.
     fn met<S: Simd>(&self, simd: S, rays: &RayScene) -> [Option<SurfaceHit>; LANES] {
         let bits =
             |is: &dyn Fn(usize) -> bool| (0..LANES).fold(0, |bits, lane| bits | u32::from(is(lane)) << lane);
         let passes_gaps = bits(&|lane| self.far[lane] == FarLight::Backdrop);
-        rays.met(simd, [&self.origins, &self.directions], bits(&|lane| self.alive[lane]), passes_gaps)
+        rays.met(simd, &self.rays, bits(&|lane| self.alive[lane]), passes_gaps)
     }
 
     /// A ray that hits nothing more.
     fn end(&mut self, lane: usize, scene: TracedScene<'_>) {
         if std::mem::take(&mut self.alive[lane]) {
-            let light = scene.light_from_afar(&self.ray(lane), self.far[lane]);
+            let light = scene.light_from_afar(&self.rays[lane], self.far[lane]);
             self.light[lane] += self.weights[lane] * light;
         }
     }
@@ -230,7 +227,7 @@ impl Walk {
             self.weights[lane] *= left_after(medium.absorption, met.distance);
         }
         self.light[lane] += self.weights[lane] * met.emissive;
-        let along = self.directions[lane];
+        let along = self.rays[lane].direction;
         match &met.optics {
             None => {
                 self.light[lane] += self.weights[lane] * met.color * lit;
@@ -260,7 +257,7 @@ impl Walk {
 
     /// Straight on through thin glass, or a plate of it.
     fn pass(&mut self, lane: usize, scene: TracedScene<'_>, met: &SurfaceHit, glass: &Glass) {
-        let along = self.directions[lane];
+        let along = self.rays[lane].direction;
         let [normal, side] = met.normals_against(along);
         let cosine = -normal.dot(along);
         let reflected = fresnel(cosine, f0(1.0, glass.ior));
@@ -272,7 +269,7 @@ impl Walk {
 
     /// Into a volume, or out of it, or back within it (total reflection).
     fn bend(&mut self, lane: usize, scene: TracedScene<'_>, met: &SurfaceHit, medium: Medium) {
-        let along = self.directions[lane];
+        let along = self.rays[lane].direction;
         let enters = met.plane_normal.dot(along) < 0.0;
         let [normal, side] = met.normals_against(along);
         let mut behind = self.media[lane];
@@ -307,15 +304,14 @@ impl Walk {
         fraction: f32,
         far: FarLight,
     ) {
-        let ray = Ray { direction, ..self.ray(lane) };
+        let ray = Ray { direction, ..self.rays[lane] };
         self.light[lane] += self.weights[lane] * scene.light_from_afar(&ray, far) * fraction;
         self.weights[lane] *= 1.0 - fraction;
     }
 
     /// Continues in another direction, on the side of a surface to which a unit vector points.
     fn turn(&mut self, lane: usize, rays: &RayScene, position: Vec3, side: Vec3, direction: Vec3) {
-        self.origins[lane] = rays.off(position, side);
-        self.directions[lane] = direction;
+        self.rays[lane] = Ray { origin: rays.off(position, side), direction };
     }
 }
 

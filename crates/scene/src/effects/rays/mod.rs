@@ -105,7 +105,7 @@ impl RayScene {
     pub(super) fn met<S: Simd>(
         &self,
         simd: S,
-        [origins, directions]: [&[Vec3; LANES]; 2],
+        rays: &[Ray; LANES],
         mut active: u32,
         passes_gaps: u32,
     ) -> [Option<SurfaceHit>; LANES] {
@@ -119,21 +119,18 @@ impl RayScene {
             if active == 0 {
                 break;
             }
-            let (origin, direction) = (columns(simd, origins), columns(simd, directions));
-            let [start_at, end] = [F32::simd_from(simd, start), F32::splat(simd, f32::INFINITY)];
-            let rays = Rays { origin, direction, start: start_at, end, active };
-            let hits = self.triangles.bvh.nearest_rays(simd, &rays, &mut |_, _| true);
-            for lane in 0..LANES {
-                let Some(hit) = hits[lane] else {
-                    active &= !(1 << lane);
-                    continue;
-                };
-                let ray = Ray { origin: origins[lane], direction: directions[lane] };
-                let found = surfaces.at(&hit, &ray);
-                if found.is_gap && passes_gaps >> lane & 1 != 0 {
-                    start[lane] = hit.distance.next_up();
+            let in_lanes = in_lanes(simd, rays, start, active);
+            let hits = self.triangles.bvh.nearest_rays(simd, &in_lanes, &mut |_, _| true);
+            let cast = active;
+            for lane in (0..LANES).filter(|lane| cast >> lane & 1 != 0) {
+                let found = hits[lane].map(|hit| surfaces.at(&hit, &rays[lane]));
+                if let Some(found) = found
+                    && found.is_gap
+                    && passes_gaps >> lane & 1 != 0
+                {
+                    start[lane] = found.distance.next_up();
                 } else {
-                    met[lane] = Some(found);
+                    met[lane] = found;
                     active &= !(1 << lane);
                 }
             }
@@ -211,6 +208,26 @@ impl RayScene {
 
 /// How far rays start off a surface, in units in the last place of the largest coordinate.
 const OFF: f32 = 64.0 * f32::EPSILON;
+
+/// Rays from where they start on, component by component.
+fn in_lanes<S: Simd>(simd: S, rays: &[Ray; LANES], start: [f32; LANES], active: u32) -> Rays<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let (mut origins, mut directions) = ([Vec3::ZERO; LANES], [Vec3::ZERO; LANES]);
+            for (lane, ray) in rays.iter().enumerate() {
+                (origins[lane], directions[lane]) = (ray.origin, ray.direction);
+            }
+            Rays {
+                origin: columns(simd, &origins),
+                direction: columns(simd, &directions),
+                start: F32::simd_from(simd, start),
+                end: F32::splat(simd, f32::INFINITY),
+                active,
+            }
+        },
+    )
+}
 
 /// Eight vectors, component by component.
 #[inline(always)]
