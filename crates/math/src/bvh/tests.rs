@@ -253,28 +253,31 @@ struct Outlook {
     distance: f32,
 }
 
-/// Eight rays from each of eight points of a scene.
-fn outlook(scene: &FarScene, turns: &[Vec3]) -> Outlook {
-    let largest =
-        scene.triangles.iter().flatten().fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
-    let normals = scene.triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).normalize_or_zero());
-    let on = |([a, b, c], normal): (&[Vec3; 3], Vec3)| {
-        let middle = (*a + *b + *c) / 3.0;
-        [middle + normal * (64.0 * f32::EPSILON * largest), normal]
+/// Rays from up to eight points of a scene: along turns, and at the middles of triangles. They end after some of the
+/// scene's size.
+fn outlook(scene: &FarScene, turns: &[Vec3], share: f32) -> Outlook {
+    let corners = || scene.triangles.iter().flatten();
+    let largest = corners().fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
+    let [least, most] = [
+        corners().fold(Vec3::INFINITY, |a, b| a.min(*b)),
+        corners().fold(Vec3::NEG_INFINITY, |a, b| a.max(*b)),
+    ];
+    let middle = |[a, b, c]: &[Vec3; 3]| (*a + *b + *c) / 3.0;
+    let on = |corners: &[Vec3; 3]| {
+        let [a, b, c] = *corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        [middle(corners) + normal * (64.0 * f32::EPSILON * largest), normal]
     };
-    let points: Vec<[Vec3; 2]> = scene
-        .triangles
-        .iter()
-        .zip(normals)
-        .map(on)
-        .filter(|[_, normal]| *normal != Vec3::ZERO)
-        .take(8)
-        .collect();
+    let points = scene.triangles.iter().map(on).filter(|[_, normal]| *normal != Vec3::ZERO);
+    let points: Vec<[Vec3; 2]> = points.take(8).collect();
     let into = |normal: Vec3, turn: Vec3| if turn.dot(normal) < 0.0 { -turn } else { turn };
     let rays = points.iter().flat_map(|&[origin, normal]| {
-        turns.iter().map(move |&turn| Ray { origin, direction: into(normal, turn.normalize_or_zero()) })
+        let aims = scene.triangles.iter().map(move |corners| (middle(corners) - origin).normalize_or_zero());
+        let aims = aims.filter(move |aim| aim.dot(normal) >= 0.0);
+        let turned = turns.iter().map(move |&turn| into(normal, turn.normalize_or_zero()));
+        turned.chain(aims).map(move |direction| Ray { origin, direction })
     });
-    Outlook { rays: rays.collect(), distance: largest * 0.5, points }
+    Outlook { rays: rays.collect(), distance: (most - least).length() * share, points }
 }
 
 proptest! {
@@ -336,6 +339,21 @@ proptest! {
         }
     }
 
+    /// Rays from one place towards another, which go through one stack together.
+    #[test]
+    fn similar_rays_hit_what_a_look_at_every_triangle_finds(
+        triangles in prop::collection::vec([vector(), vector(), vector()], 1..120),
+        from in vector(), to in vector(), apart in prop_oneof![Just(0.01_f32), Just(0.1), Just(0.5)],
+        moves in prop::collection::vec((vector(), vector()), 8),
+    ) {
+        let ray = |(start, end): (Vec3, Vec3)| {
+            let origin = from * 2.0 + start * apart;
+            Ray { origin, direction: to + end * apart - origin }
+        };
+        let rays: Vec<Ray> = moves.into_iter().map(ray).collect();
+        check_by_brute_force(&triangles, &rays);
+    }
+
     #[test]
     fn a_tree_answers_as_a_look_at_every_triangle_for_all_numbers(scene in wild_scene()) {
         check_by_brute_force(&scene.triangles, &scene.rays);
@@ -343,9 +361,9 @@ proptest! {
 
     #[test]
     fn surroundings_hold_all_that_rays_into_hemispheres_hit(
-        scene in far_scene(), turns in prop::collection::vec(vector(), 8),
+        scene in far_scene(), turns in prop::collection::vec(vector(), 8), share in 0.02_f32..1.0,
     ) {
-        let Outlook { points, rays, distance } = outlook(&scene, &turns);
+        let Outlook { points, rays, distance } = outlook(&scene, &turns, share);
         for level in levels() {
             let bvh = Bvh { level, ..Bvh::new(&scene.triangles) };
             let column = |side: usize, axis: usize| -> [f32; 8] {
