@@ -34,9 +34,12 @@ const NODES: usize = 3;
 /// The maximum number of boxes.
 const MOST: usize = NODES * WIDTH;
 
-/// How far below the plane through a point a triangle lies that no ray into the hemisphere hits: in units in the last
-/// place of the largest coordinate. A ray test moves a corner by less than 22 of these (see `prepared.rs`: 11 times the
-/// distance along an axis, which is at most twice the largest coordinate), and a height is off by less than 7.
+/// How far below the plane through a point a triangle has to lie so that no ray into the hemisphere hits it, as a fraction
+/// of the largest coordinate.
+///
+/// On each of two axes, a ray test moves a corner by at most 8 times `EPSILON` of its distance along the third, which is at
+/// most twice the largest coordinate (see `OUTSIDE` in `prepared.rs`, where this is doubled): together 23. A height is
+/// rounded by less than 7.
 const BELOW: f32 = 32.0 * f32::EPSILON;
 
 impl Surroundings {
