@@ -1,12 +1,12 @@
 //! Building: triangles are split where this is expected to save the most tests.
 
-use fearless_simd::Level;
 use glam::Vec3;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::Bvh;
 use super::extent::Extent;
 use super::wide::{Child, Leaf, Node, WIDTH};
+use crate::simd::Token;
 
 /// More bins split better and build slower; beyond sixteen there is hardly any gain.
 const BINS: usize = 16;
@@ -39,7 +39,8 @@ impl Bvh {
         let mut tree = Subtree::default();
         let root = tree.grow(&mut items, triangles);
         let Subtree { nodes, leaves } = tree;
-        let mut tree = Self { root, nodes, leaves, len: items.len(), extent, cost: 0.0, level: Level::new() };
+        let mut tree =
+            Self { root, nodes, leaves, len: items.len(), extent, cost: 0.0, level: Token::best() };
         tree.cost = tree.expected_cost();
         tree
     }

@@ -28,10 +28,11 @@ mod tests;
 pub use ray::{Ray, RayHit, Rays};
 pub use surroundings::{Hemispheres, Surroundings};
 
-use fearless_simd::Level;
 use glam::Vec3;
 
 use wide::{Child, Leaf, Node};
+
+use crate::simd::Token;
 
 /// A bounding volume hierarchy over triangles.
 ///
@@ -58,7 +59,7 @@ pub struct Bvh {
     /// The boxes that a ray was expected to enter when the tree was built.
     cost: f32,
     /// The instructions that the processor has.
-    level: Level,
+    level: Token,
 }
 
 impl Default for Bvh {

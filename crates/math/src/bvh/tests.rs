@@ -1,11 +1,13 @@
 //! The tree answers as a look at every triangle does.
 
+use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{dispatch, f32x8};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::at_level;
+use crate::simd::Token;
 
 fn vector() -> impl Strategy<Value = Vec3> {
     // A coarse grid, too: rays then meet edges, vertices and sides of boxes.
@@ -189,18 +191,6 @@ fn by_brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Option<RayHit> {
     nearest
 }
 
-/// The levels of this processor.
-fn levels() -> Vec<Level> {
-    let best = Level::new();
-    let mut levels = vec![best, Level::Fallback(fearless_simd::Fallback::new())];
-    #[cfg(target_arch = "x86_64")]
-    {
-        levels.extend(best.as_sse2().map(Level::Sse2));
-        levels.extend(best.as_avx2().map(Level::Avx2));
-    }
-    levels
-}
-
 /// Holds a tree to [`by_brute_force`], at every level, ray by ray and eight at a time, from the root and among
 /// surroundings.
 fn check_by_brute_force(triangles: &[[Vec3; 3]], rays: &[Ray]) {
@@ -212,7 +202,7 @@ fn check_by_brute_force(triangles: &[[Vec3; 3]], rays: &[Ray]) {
     let of = |hit: Option<RayHit>| hit.map(|hit| (hit.triangle, hit.distance));
     let expected: Vec<Option<RayHit>> =
         rays.iter().map(|ray| is_ray(ray).then(|| by_brute_force(&triangles, ray)).flatten()).collect();
-    for level in levels() {
+    for level in Token::all() {
         let bvh = Bvh { level, ..Bvh::new(&triangles) };
         for (ray, &expected) in rays.iter().zip(&expected) {
             assert_eq!(of(bvh.nearest(ray, 0.0..f32::INFINITY)), of(expected), "{level:?} {ray:?}");
@@ -233,7 +223,7 @@ fn eight_at_once(bvh: &Bvh, rays: &[Ray]) -> ([Option<RayHit>; 8], u32) {
     let column = |of: &dyn Fn(&Ray) -> f32| std::array::from_fn(|lane| rays.get(lane).map_or(0.0, of));
     let origin: [[f32; 8]; 3] = [0, 1, 2].map(|axis| column(&|ray| ray.origin[axis]));
     let direction: [[f32; 8]; 3] = [0, 1, 2].map(|axis| column(&|ray| ray.direction[axis]));
-    dispatch!(bvh.level, simd => {
+    at_level!(bvh.level, simd => {
         let rays = Rays {
             origin: origin.map(|column| f32x8::simd_from(simd, column)),
             direction: direction.map(|column| f32x8::simd_from(simd, column)),
@@ -367,12 +357,12 @@ proptest! {
         scene in far_scene(), turns in prop::collection::vec(vector(), 8), share in 0.02_f32..1.0,
     ) {
         let Outlook { points, rays, distance } = outlook(&scene, &turns, share);
-        for level in levels() {
+        for level in Token::all() {
             let bvh = Bvh { level, ..Bvh::new(&scene.triangles) };
             let column = |side: usize, axis: usize| -> [f32; 8] {
                 std::array::from_fn(|lane| points.get(lane).map_or(0.0, |point| point[side][axis]))
             };
-            let occluded: Vec<bool> = dispatch!(level, simd => {
+            let occluded: Vec<bool> = at_level!(level, simd => {
                 let columns = |side: usize| [0, 1, 2].map(|axis| f32x8::simd_from(simd, column(side, axis)));
                 let hemispheres = Hemispheres {
                     origin: columns(0), normal: columns(1), distance, active: (1 << points.len()) - 1,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::Simd;
 
 use super::bits::{last_bit, next_bit};
 use super::packet::Packet;
@@ -12,6 +12,7 @@ use super::surroundings::Surroundings;
 use super::triangle::ShearedRay;
 use super::wide::{Child, Eight, Inside, Leaf, WIDTH};
 use super::{Bvh, Ray, RayHit, Rays};
+use crate::at_level;
 
 impl Bvh {
     /// The first hit of the ray within a range of distances; of equally near triangles the one with
@@ -30,14 +31,36 @@ impl Bvh {
         range: Range<f32>,
         mut counts: impl FnMut(&RayHit) -> bool,
     ) -> Option<RayHit> {
-        let counts = &mut |_, hit: &RayHit| counts(hit);
-        dispatch!(self.level, simd => self.nearest_rays(simd, &Rays::one(simd, ray, range), counts)[0])
+        at_level!(self.level, simd => self.nearest_one(simd, &Rays::one(simd, ray, range), &mut counts))
     }
 
     /// Whether the ray hits anything within a range of distances, excluding its end.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, range: Range<f32>) -> bool {
-        dispatch!(self.level, simd => self.occluded_rays(simd, &Rays::one(simd, ray, range), None) != 0)
+        at_level!(self.level, simd => self.occluded_one(simd, &Rays::one(simd, ray, range)))
+    }
+
+    /// The first hit of the first of eight rays, the only one.
+    #[inline(always)]
+    fn nearest_one<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        counts: &mut dyn FnMut(&RayHit) -> bool,
+    ) -> Option<RayHit> {
+        let rays = PreparedRays::new(simd, self, rays);
+        let [mut nearest, ..] = Nearest::before(&rays.end);
+        if rays.possible != 0 {
+            self.nearest_below(simd, &PreparedRay::new(&rays, 0), self.root, &mut nearest, counts);
+        }
+        nearest.hit
+    }
+
+    /// Whether the first of eight rays, the only one, hits anything.
+    #[inline(always)]
+    fn occluded_one<S: Simd>(&self, simd: S, rays: &Rays<S>) -> bool {
+        let rays = PreparedRays::new(simd, self, rays);
+        rays.possible != 0 && self.occluded_below(simd, &PreparedRay::new(&rays, 0), self.root)
     }
 
     /// The first hit of each of eight rays, as [`nearest_of`](Self::nearest_of) finds them. `counts` gets the number of the

@@ -291,8 +291,9 @@ impl Stroke {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
+    use trigon_math::at_level;
+    use trigon_math::simd::Token;
 
     /// What a wireframe of 1.5 million edges takes is a multiple of it.
     #[test]
@@ -313,7 +314,7 @@ mod tests {
                 Form::Round | Form::Square => Stroke::point(ends[0], width, form),
             };
             let first = first.map(|at| at * 128);
-            let eight = dispatch!(Level::new(), simd => stroke.coverage(simd, first));
+            let eight = at_level!(Token::best(), simd => stroke.coverage(simd, first));
             let each = lanes_of(|lane| stroke.coverage_at(lane_point(first, lane)) as f32);
             prop_assert_eq!(eight.map(f32::to_bits), each.map(f32::to_bits));
         }

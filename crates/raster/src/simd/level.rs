@@ -6,6 +6,7 @@ use fearless_simd::Level;
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
+use trigon_math::simd::Token;
 
 /// A set of vector instructions. Every level draws the same bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -99,55 +100,3 @@ impl FromStr for SimdLevel {
         Self::ALL.into_iter().find(|level| level.to_string() == name).ok_or(SimdLevelError::Unknown)
     }
 }
-
-/// A level that the processor has.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Token {
-    #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-    Scalar(Fallback),
-    #[cfg(target_arch = "x86_64")]
-    Sse2(fearless_simd::x86::Sse2),
-    #[cfg(target_arch = "x86_64")]
-    Avx2(fearless_simd::x86::Avx2),
-    #[cfg(target_arch = "x86_64")]
-    Avx512(fearless_simd::x86::Avx512),
-    #[cfg(target_arch = "aarch64")]
-    Neon(fearless_simd::aarch64::Neon),
-}
-
-/// Runs an expression in a function that is compiled for the level of a
-/// [`Token`]. Everything that it calls must be `#[inline(always)]` down to the
-/// vectors, or it loses the level's instructions.
-macro_rules! at_level {
-    ($token:expr, $simd:ident => $body:expr) => {{
-        use fearless_simd::Simd as _;
-        match $token {
-            #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-            $crate::simd::Token::Scalar($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $body,
-            ),
-            #[cfg(target_arch = "x86_64")]
-            $crate::simd::Token::Sse2($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $body,
-            ),
-            #[cfg(target_arch = "x86_64")]
-            $crate::simd::Token::Avx2($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $body,
-            ),
-            #[cfg(target_arch = "x86_64")]
-            $crate::simd::Token::Avx512($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $body,
-            ),
-            #[cfg(target_arch = "aarch64")]
-            $crate::simd::Token::Neon($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $body,
-            ),
-        }
-    }};
-}
-pub(crate) use at_level;

@@ -11,7 +11,8 @@ pub use fearless_simd::{Simd, prelude};
 pub use lanes::{InlineMap, inlined, lanes_of};
 pub(crate) use lanes::{Row, append, channels, colors_of, transpose, transposed, unzipped};
 pub use level::{SimdLevel, SimdLevelError};
-pub(crate) use level::{Token, at_level};
+pub(crate) use trigon_math::at_level;
+pub(crate) use trigon_math::simd::Token;
 pub use trigon_math::simd::{greater, lesser};
 
 use fearless_simd::prelude::*;

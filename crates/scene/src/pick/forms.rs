@@ -130,8 +130,9 @@ fn forms_of([a, b, c]: &[[f64; 3]; 3], reach: DVec2, depth: f64) -> [Factors; 4]
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
+    use trigon_math::at_level;
+    use trigon_math::simd::Token;
 
     use super::*;
     use crate::pick::hiding::depth_at;
@@ -153,7 +154,7 @@ mod tests {
             let pixels = extent.pixels(&all, &all).expect("in the image");
             group.push(&piece, 0, extent, pixels);
         }
-        dispatch!(Level::new(), simd => {
+        at_level!(Token::best(), simd => {
             let forms = Forms::new(simd, &group.pieces, DVec2::ZERO, reach);
             probes.iter().map(|probe| forms.that_may_hide(simd, probe) & group.bits()).collect()
         })

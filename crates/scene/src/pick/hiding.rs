@@ -8,9 +8,10 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 use trigon_math::DVec2;
+use trigon_math::at_level;
+use trigon_math::simd::Token;
 use trigon_raster::simd::Simd;
 
 use super::forms::Forms;
@@ -80,7 +81,7 @@ impl<'p> Hiding<'p> {
     /// belongs to a face of that object.
     pub(super) fn hide(&self, nearby: &Nearby<'_>, is_own: impl Fn(u32, &Candidate) -> bool + Sync) {
         let Some(triangles) = nearby.triangles() else { return };
-        let level = Level::new();
+        let level = Token::best();
         for (facing, run) in triangles.drawn.runs() {
             let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
             let hides = |face: u32, point: &Candidate| wins(face, point.spot.at) && !is_own(face, point);
@@ -88,7 +89,7 @@ impl<'p> Hiding<'p> {
             let starts: Vec<usize> = indices.clone().step_by(TRIANGLES).collect();
             starts.into_par_iter().for_each(|start| {
                 let share = start..indices.end.min(start + TRIANGLES);
-                dispatch!(level, simd => self.visit_all(simd, &triangles, facing, share, &hides));
+                at_level!(level, simd => self.visit_all(simd, &triangles, facing, share, &hides));
             });
         }
     }

@@ -5,8 +5,9 @@
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
+use trigon_math::at_level;
+use trigon_math::simd::Token;
 use trigon_math::{DMat4, DVec2, DVec3, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::simd::{LANES, inlined, lanes_of};
@@ -288,16 +289,16 @@ impl LazySpots<'_> {
         area: &Area<'_>,
         points: impl Fn(usize) -> [[f32; LANES]; 3] + Sync,
     ) -> Vec<[Sides; LANES]> {
-        let level = Level::new();
+        let level = Token::best();
         if let Some(spots) = self.cached.get() {
             let blocks = spots.par_iter().with_min_len(POINTS / LANES);
-            let of = |spots| dispatch!(level, simd => Sides::of_each(simd, &Spots::of(simd, spots), area));
+            let of = |spots| at_level!(level, simd => Sides::of_each(simd, &Spots::of(simd, spots), area));
             return blocks.map(of).collect();
         }
         let blocks = (0..self.count.div_ceil(LANES)).into_par_iter().with_min_len(POINTS / LANES);
         let found = blocks.map(|block| {
             let points = points(block);
-            dispatch!(level, simd => {
+            at_level!(level, simd => {
                 let spots = self.screen.spots(simd, self.map, points);
                 (spots.each(), Sides::of_each(simd, &spots, area))
             })

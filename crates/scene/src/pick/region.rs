@@ -320,10 +320,11 @@ impl Sides {
 #[cfg(test)]
 mod tests {
     use super::{Region, *};
-    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
     use trigon_camera::Viewport;
     use trigon_math::DVec2;
+    use trigon_math::at_level;
+    use trigon_math::simd::Token;
 
     /// Whether a point is in a polygon, by the angles under which it sees the sides: the sum is a full turn or none.
     fn surrounds(corners: &[DVec2], point: DVec2) -> bool {
@@ -370,7 +371,7 @@ mod tests {
                 let at = if depth.is_nan() { DVec2::NAN } else { DVec2::new(x, y) };
                 Spot { at, depth }
             });
-            let together = dispatch!(Level::new(), simd => Sides::of_each(simd, &Spots::of(simd, &spots), &area));
+            let together = at_level!(Token::best(), simd => Sides::of_each(simd, &Spots::of(simd, &spots), &area));
             prop_assert_eq!(together, spots.map(|spot| Sides::of(&spot, &area)));
         }
     }

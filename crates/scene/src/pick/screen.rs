@@ -279,9 +279,10 @@ impl ClippedTriangle {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
     use trigon_math::Vec3;
+    use trigon_math::at_level;
+    use trigon_math::simd::Token;
 
     use super::*;
 
@@ -297,7 +298,7 @@ mod tests {
             let screen = Screen::new(&camera, Viewport { width: 200, height: 100 });
             let map = screen.map(&DAffine3::from_scale(DVec3::new(1.0, -0.7, 2.0)));
             let columns = [0, 1, 2].map(|axis| points.map(|point| point[axis]));
-            let together = dispatch!(Level::new(), simd => screen.spots(simd, &map, columns).each());
+            let together = at_level!(Token::best(), simd => screen.spots(simd, &map, columns).each());
             for (point, spot) in points.iter().zip(together) {
                 let alone = screen.spot(&map, Vec3::from_array(*point).as_dvec3());
                 let bits = |spot: Spot| [spot.at.x, spot.at.y, spot.depth].map(f64::to_bits);

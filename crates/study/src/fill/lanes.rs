@@ -2,21 +2,23 @@
 //! [`fixed`], which take one pixel at a time.
 
 use super::{FillCanvas, Triangle, fixed, float};
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::Simd;
 use std::ops::RangeInclusive;
+use trigon_math::at_level;
+use trigon_math::simd::Token;
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, I32, LANES, inlined, lane_numbers};
 
 /// In `f32`, as [`float::fill_hoisted`].
 pub(super) fn fill_float(triangles: &[Triangle], canvas: &mut FillCanvas) {
-    dispatch!(Level::new(), simd => canvas.each(triangles, #[inline(always)] |triangle, canvas| {
+    at_level!(Token::best(), simd => canvas.each(triangles, #[inline(always)] |triangle, canvas| {
         float_edges(simd, triangle, canvas);
     }));
 }
 
 /// On a grid of 1/256 pixel, as [`fixed::fill`] with eight bits.
 pub(super) fn fill_fixed(triangles: &[Triangle], canvas: &mut FillCanvas) {
-    dispatch!(Level::new(), simd => canvas.each(triangles, #[inline(always)] |triangle, canvas| {
+    at_level!(Token::best(), simd => canvas.each(triangles, #[inline(always)] |triangle, canvas| {
         fixed_edges(simd, triangle, canvas);
     }));
 }

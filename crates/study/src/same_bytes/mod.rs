@@ -2,8 +2,9 @@
 //! operations that these rule out because they differ between processors: fused multiply-add, and estimated
 //! reciprocals.
 
-use fearless_simd::{Level, dispatch};
 use trigon_classic::Field;
+use trigon_math::at_level;
+use trigon_math::simd::Token;
 use trigon_math::{DVec3, Vec3};
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, LANES, Simd, greater, inlined, lane_numbers};
@@ -51,12 +52,12 @@ impl Rules {
     }
 
     fn draw_into(self, light: &mut Field<f32>) {
-        let level = Level::new();
+        let level = Token::best();
         match self {
-            Self::SameBytes => dispatch!(level, simd => draw::<_, Ours>(simd, light.values_mut())),
-            Self::Fused => dispatch!(level, simd => draw::<_, Fused>(simd, light.values_mut())),
+            Self::SameBytes => at_level!(level, simd => draw::<_, Ours>(simd, light.values_mut())),
+            Self::Fused => at_level!(level, simd => draw::<_, Fused>(simd, light.values_mut())),
             Self::FusedAndEstimated => {
-                dispatch!(level, simd => draw::<_, Fast>(simd, light.values_mut()));
+                at_level!(level, simd => draw::<_, Fast>(simd, light.values_mut()));
             }
         }
     }

@@ -1,7 +1,12 @@
 //! Eight lanes with the same bits at every SIMD level.
 
+mod level;
+
+use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+
+pub use fearless_simd::Simd;
+pub use level::Token;
 
 /// The smaller of two; the second where they are equal or one is no number.
 /// (`min` leaves the sign of zero and the fate of a NaN to the machine: where that

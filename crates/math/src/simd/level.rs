@@ -1,0 +1,110 @@
+//! Levels of vector instructions, and how an expression is compiled for each.
+//!
+//! The level without vectors takes longer to compile than all others together. Where the processor has vectors it is there
+//! only with the feature `scalar`.
+
+#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use fearless_simd::Fallback;
+use fearless_simd::Level;
+
+/// A level that the processor has.
+#[derive(Clone, Copy, Debug)]
+pub enum Token {
+    /// No vectors.
+    #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+    Scalar(Fallback),
+    /// x86-64's own 128 bits.
+    #[cfg(target_arch = "x86_64")]
+    Sse2(fearless_simd::x86::Sse2),
+    /// x86-64-v3: 256 bits.
+    #[cfg(target_arch = "x86_64")]
+    Avx2(fearless_simd::x86::Avx2),
+    /// Ice Lake's AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    Avx512(fearless_simd::x86::Avx512),
+    /// aarch64's own 128 bits.
+    #[cfg(target_arch = "aarch64")]
+    Neon(fearless_simd::aarch64::Neon),
+}
+
+impl Token {
+    /// All levels that this processor has, narrow to wide.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let level = Level::new();
+        #[cfg(target_arch = "x86_64")]
+        let vectors = [
+            level.as_sse2().map(Self::Sse2),
+            level.as_avx2().map(Self::Avx2),
+            level.as_avx512().map(Self::Avx512),
+        ];
+        #[cfg(target_arch = "aarch64")]
+        let vectors = [level.as_neon().map(Self::Neon)];
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        let vectors: [Option<Self>; 0] = [];
+        #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+        let scalar = [Self::Scalar(Fallback::new())];
+        #[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+        let scalar = [];
+        let _ = level;
+        scalar.into_iter().chain(vectors.into_iter().flatten())
+    }
+
+    /// The widest one.
+    #[must_use]
+    pub fn best() -> Self {
+        Self::all().last().expect("every processor has a level: where there are no vectors, the scalar one")
+    }
+}
+
+/// Runs an expression in a function that is compiled for the level of a [`Token`]. Everything that it calls must be
+/// `#[inline(always)]` down to the vectors, or it loses the level's instructions.
+#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[macro_export]
+macro_rules! at_level {
+    ($token:expr, $simd:ident => $body:expr) => {{
+        use $crate::simd::Simd as _;
+        match $token {
+            $crate::simd::Token::Scalar($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Sse2($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx2($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx512($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "aarch64")]
+            $crate::simd::Token::Neon($simd) => $crate::at_token!($simd => $body),
+        }
+    }};
+}
+
+/// Runs an expression in a function that is compiled for the level of a [`Token`]. Everything that it calls must be
+/// `#[inline(always)]` down to the vectors, or it loses the level's instructions.
+#[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+#[macro_export]
+macro_rules! at_level {
+    ($token:expr, $simd:ident => $body:expr) => {{
+        use $crate::simd::Simd as _;
+        match $token {
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Sse2($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx2($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx512($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_arch = "aarch64")]
+            $crate::simd::Token::Neon($simd) => $crate::at_token!($simd => $body),
+        }
+    }};
+}
+
+/// Runs an expression in a function that is compiled for a level.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! at_token {
+    ($simd:ident => $body:expr) => {
+        $simd.vectorize(
+            #[inline(always)]
+            || $body,
+        )
+    };
+}
