@@ -71,8 +71,8 @@ pub use check::{Finding, Severity};
 pub use display::Display;
 pub use effect::Effect;
 pub use effect_settings::{
-    AmbientOcclusion, EffectSettings, Exposure, Fog, MetalReflection, Outline, Shadows, SightRays,
-    ToneMapping,
+    AmbientOcclusion, EffectSettings, Exposure, Fog, MetalReflection, OcclusionSampling, Outline, Shadows,
+    SightRays, ToneMapping,
 };
 pub use effects::EffectCounts;
 pub use elements::{ElementSet, Mark, Marks, VertexPoints};

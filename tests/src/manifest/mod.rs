@@ -5,6 +5,7 @@
 
 mod cases;
 mod layouts;
+mod scenes;
 
 use crate::coverage_support::{levels, rasterizer};
 use cases::all;
@@ -13,6 +14,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use trigon_raster::{ExecuteSettings, TargetImages};
+use trigon_scene::Frame;
 
 const HEADER: &str = "\
 # What the pictures of tests/src/manifest hash to (FNV-1a, 64 bits, over all outputs, little-endian).
@@ -52,6 +54,15 @@ fn hash(images: &TargetImages) -> String {
     format!("{:016x}", fnv1a(codes.chain(floats.chain(ids).flat_map(u32::to_le_bytes))))
 }
 
+fn hash_frame(frame: &Frame) -> String {
+    let Frame { color, radiance, depth, object_ids, face_ids, .. } = frame;
+    let colors = radiance.iter().flatten().flat_map(|color| color.to_array());
+    let floats = colors.chain(depth.iter().flatten().copied()).map(f32::to_bits);
+    let ids = [object_ids, face_ids].into_iter().flatten().flatten().copied();
+    let bytes = color.iter().copied().chain(floats.chain(ids).flat_map(u32::to_le_bytes));
+    format!("{:016x}", fnv1a(bytes))
+}
+
 /// Everything that must not change a byte.
 fn every_setting() -> impl Iterator<Item = ExecuteSettings> {
     levels().flat_map(|level| {
@@ -68,13 +79,15 @@ fn every_image_hashes_to_what_the_manifest_says() {
     let images = all();
     let by_name = |settings: &ExecuteSettings| -> BTreeMap<String, String> {
         let mut rasterizer = rasterizer(settings);
-        images.iter().map(|image| (image.name(), hash(&image.draw(&mut rasterizer)))).collect()
+        let passes = images.iter().map(|image| (image.name(), hash(&image.draw(&mut rasterizer))));
+        let scenes = scenes::images(settings).map(|frame| hash_frame(&frame));
+        passes.chain(scenes::NAMES.map(str::to_owned).into_iter().zip(scenes)).collect()
     };
     if std::env::var_os("TRIGON_UPDATE_MANIFEST").is_some() {
         write(&by_name(&ExecuteSettings::default()));
     }
     let expected = read();
-    assert_eq!(expected.len(), images.len(), "a line for each image");
+    assert_eq!(expected.len(), images.len() + scenes::NAMES.len(), "a line for each image");
     let mut wrong = Vec::new();
     for settings in every_setting() {
         for (name, hash) in by_name(&settings) {
@@ -95,6 +108,10 @@ fn every_image_shows_something_of_its_own() {
         let other = seen.insert(hash(&image.draw(&mut rasterizer)), image.name());
         assert_eq!(other, None, "{} is the same", image.name());
         assert!(image.is_worth_drawing(&mut rasterizer), "{} is empty", image.name());
+    }
+    for (name, frame) in scenes::NAMES.into_iter().zip(scenes::images(&ExecuteSettings::default())) {
+        let other = seen.insert(hash_frame(&frame), name.to_owned());
+        assert_eq!(other, None, "{name} is the same");
     }
 }
 

@@ -53,7 +53,15 @@ away from what casts it. Where interpolated normals lean away from a coarse mesh
 points are moved farther along them, so that they rise above the triangle by what its plane needs. Shadow rays need none
 of this.
 
-## What metals reflect
+## Ambient occlusion that pixels share
+
+`--ambient-occlusion-sampling=shared`, and the presets `draft` and `standard`, cast a sixteenth of the rays at each pixel of an image of half
+the width and height. The 16 pixels around each one have cast all of them together, and their mean is what the samples of
+the image read. Neighbours count as far as they lie on the plane of the surface, so that neither objects nor the sides of an
+edge mix. A sample whose surface the small image does not show casts a quarter of the rays itself. The image depends on nothing but the
+scene, the camera and the settings. Drafts in a window are drawn so; the image at rest has the rays that the settings ask for.
+
+TABLE_HERE## What metals reflect
 
 Lit by lamps alone, a metal is black outside its highlights. Metals therefore reflect a studio if the scene has no
 environment and no ambient light of its own, unless it is drawn with nothing but its own lights (`Lighting::Scene`). The

@@ -81,7 +81,7 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         asked(Effect::ShadowMaps, &|settings| settings.effects.shadows = Shadows::Maps { resolution: 2048 }),
         asked(Effect::ShadowRays, &|settings| settings.effects.shadows = Shadows::Rays),
         asked(Effect::AmbientOcclusion, &|settings| {
-            settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 16, distance: 1.0 });
+            settings.effects.ambient_occlusion = Some(AmbientOcclusion::new(16, 1.0));
         }),
         asked(Effect::Reflection, &|settings| settings.effects.sight = SightRays::all(4)),
         asked(Effect::Fog, &|settings| {

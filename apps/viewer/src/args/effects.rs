@@ -7,8 +7,8 @@ use std::sync::{Arc, LazyLock};
 use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection, Reflection,
-    RenderSettings, ShadingModel, Shadows, SightRays, Sky, ToneMapping,
+    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection,
+    OcclusionSampling, Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky, ToneMapping,
 };
 
 use super::quality::Insisted;
@@ -46,6 +46,11 @@ pub(crate) struct EffectArgs {
     /// Rays per sample for ambient occlusion [default: 16, or from --preset]
     #[arg(long, value_name = "N", value_parser = values::count::<1, 256>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) ambient_occlusion_rays: Option<u32>,
+
+    /// Where these rays start: full is at every sample; shared takes a fraction of the time, and blurs a little
+    /// [default: full, or from --preset]
+    #[arg(long, value_name = "WAY", help_heading = "Effects")]
+    pub(crate) ambient_occlusion_sampling: Option<OcclusionSamplingArg>,
 
     /// The distance within which surfaces occlude ambient light, in metres
     #[arg(long, value_name = "METRES", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
@@ -126,6 +131,13 @@ pub(crate) enum ShadowsArg {
     Rays,
 }
 
+/// Where rays of ambient occlusion start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OcclusionSamplingArg {
+    Full,
+    Shared,
+}
+
 /// What metals mirror.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MetalReflectionArg {
@@ -184,6 +196,7 @@ impl EffectArgs {
                 ShadowsArg::Off | ShadowsArg::On => self.shadow_resolution.map(|_| self.shadow_maps()),
             },
             occlusion_rays: self.ambient_occlusion_rays,
+            occlusion_sampling: self.occlusion_sampling(),
             samples: None,
         }
     }
@@ -193,6 +206,13 @@ impl EffectArgs {
             ShadingArg::Flat => ShadingModel::Flat,
             ShadingArg::Gouraud => ShadingModel::Gouraud,
             ShadingArg::Phong => ShadingModel::Phong,
+        })
+    }
+
+    fn occlusion_sampling(&self) -> Option<OcclusionSampling> {
+        Some(match self.ambient_occlusion_sampling? {
+            OcclusionSamplingArg::Full => OcclusionSampling::Full,
+            OcclusionSamplingArg::Shared => OcclusionSampling::Shared,
         })
     }
 
@@ -218,6 +238,7 @@ impl EffectArgs {
             ambient_occlusion: (self.ambient_occlusion == Some(true)).then_some(AmbientOcclusion {
                 rays: self.ambient_occlusion_rays.unwrap_or(USUAL_OCCLUSION_RAYS),
                 distance: self.ambient_occlusion_distance,
+                sampling: self.occlusion_sampling().unwrap_or_default(),
             }),
             environment: self.is_lit_by_sky().then(clear_sky),
             metal_reflection: match self.metal_reflection {

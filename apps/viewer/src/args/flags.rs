@@ -1,15 +1,16 @@
 //! From settings back to flags: the words that set what a window shows.
 
 use trigon_scene::{
-    Display, Exposure, MetalReflection, Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Style,
-    ToneMapping,
+    Display, Exposure, MetalReflection, OcclusionSampling, Reflection, RenderSettings, ShadingModel, Shadows,
+    SightRays, Style, ToneMapping,
 };
 
 /// The flags that [`of_settings`] and a window's camera and overlays decide. All that is typed of them is replaced.
-pub(crate) const DECIDED: [&str; 48] = [
+pub(crate) const DECIDED: [&str; 49] = [
     "ambient-occlusion",
     "ambient-occlusion-distance",
     "ambient-occlusion-rays",
+    "ambient-occlusion-sampling",
     "animation-indices",
     "animation-jump",
     "animation-time",
@@ -98,6 +99,8 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
         add(true, "ambient-occlusion", &true);
         add(true, "ambient-occlusion-rays", &occlusion.rays);
         add(true, "ambient-occlusion-distance", &occlusion.distance);
+        let is_shared = occlusion.sampling == OcclusionSampling::Shared;
+        add(true, "ambient-occlusion-sampling", &if is_shared { "shared" } else { "full" });
     }
     add(effects.metal_reflection == MetalReflection::Ambient, "metal-reflection", &"ambient");
     match effects.sight {

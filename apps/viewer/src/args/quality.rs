@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use trigon_scene::quality::{Quality, TimeBudget};
-use trigon_scene::{ShadingModel, Shadows};
+use trigon_scene::{OcclusionSampling, ShadingModel, Shadows};
 
 use super::values;
 use crate::ladder::QualityStep;
@@ -41,6 +41,7 @@ pub(crate) struct Insisted {
     pub(crate) shading: Option<ShadingModel>,
     pub(crate) shadows: Option<Shadows>,
     pub(crate) occlusion_rays: Option<u32>,
+    pub(crate) occlusion_sampling: Option<OcclusionSampling>,
 }
 
 impl Insisted {
@@ -53,6 +54,7 @@ impl Insisted {
             shading: self.shading.unwrap_or(quality.shading),
             shadows: self.shadows.unwrap_or(quality.shadows),
             occlusion_rays: self.occlusion_rays.unwrap_or(quality.occlusion_rays),
+            occlusion_sampling: self.occlusion_sampling.unwrap_or(quality.occlusion_sampling),
             // --bounces asks for mirrors, too, and a quality changes only glass without them.
             glass_bounces: quality.glass_bounces,
         }

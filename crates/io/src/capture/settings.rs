@@ -4,8 +4,8 @@ use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
     AmbientOcclusion, Background, Display, EffectSettings, Environment, Exposure, Fog, Lighting,
-    MetalReflection, Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky,
-    Style, ToneMapping,
+    MetalReflection, OcclusionSampling, Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows,
+    SightRays, Sky, Style, ToneMapping,
 };
 
 use super::stored::{CaptureReader, CaptureWriter, Damage};
@@ -43,8 +43,29 @@ impl Stored for SightRays {
 
 const GLASS_ALONE: u32 = 1 << 31;
 
+/// The number of rays, of which the largest bit says that pixels share them; and the distance.
+impl Stored for AmbientOcclusion {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
+        let rays = self.rays & !SHARED_RAYS;
+        match self.sampling {
+            OcclusionSampling::Full => rays,
+            OcclusionSampling::Shared => rays | SHARED_RAYS,
+        }
+        .write(to);
+        self.distance.write(to);
+    }
+
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
+        let (number, distance) = (u32::read(from)?, f32::read(from)?);
+        let rays = number & !SHARED_RAYS;
+        let sampling = if rays == number { OcclusionSampling::Full } else { OcclusionSampling::Shared };
+        Ok(Self { sampling, ..Self::new(rays, distance) })
+    }
+}
+
+const SHARED_RAYS: u32 = 1 << 31;
+
 choice!(Shadows { 0 => Off, 1 => Maps { resolution }, 2 => Rays });
-record!(AmbientOcclusion { rays, distance });
 choice!(MetalReflection { 0 => Studio, 1 => Ambient });
 record!(Fog { color, density });
 choice!(Exposure { 0 => Metered, 1 => Stops(stops) });

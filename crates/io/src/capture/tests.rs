@@ -30,7 +30,7 @@ fn capture() -> Capture {
     scene.animations = vec![Animation { name: "up".to_owned(), channels: vec![channel] }];
     let effects = EffectSettings {
         shadows: Shadows::Maps { resolution: 16 },
-        ambient_occlusion: Some(AmbientOcclusion { rays: 1, distance: 1.0 }),
+        ambient_occlusion: Some(AmbientOcclusion::new(1, 1.0)),
         sight: SightRays::all(1),
         outline: Some(Outline { nodes: vec![child], color: Vec3::X, width: 1 }),
         ..EffectSettings::default()

@@ -48,7 +48,7 @@ fn the_showcase_under_every_effect() {
         EffectSettings { sight: SightRays::Off, ..none() },
         EffectSettings { sight: SightRays::Glass { bounces: 3 }, ..none() },
         EffectSettings { metal_reflection: MetalReflection::Ambient, ..none() },
-        EffectSettings { ambient_occlusion: Some(AmbientOcclusion { rays: 2, distance: 1.0 }), ..none() },
+        EffectSettings { ambient_occlusion: Some(AmbientOcclusion::new(2, 1.0)), ..none() },
         EffectSettings { environment: environment(Environment::from_sky(&Sky::default())), ..none() },
         EffectSettings {
             environment: environment(Environment::uniform(Vec3::X)),

@@ -10,7 +10,7 @@ use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, Simd};
 
 use super::metal_studio::{MetalStudio, StudioOnMetal};
-use super::rays::{AmbientRays, Optics, RayScene};
+use super::rays::{AmbientRays, OcclusionBuffer, Optics, RayPart, RayScene, RayStarts};
 use super::shadow::ShadowMaps;
 use crate::effect_settings::Fog;
 use crate::environment::Surroundings;
@@ -31,6 +31,8 @@ pub(crate) struct LightingEnvironment {
     /// Whether rays test the visibility of lamps.
     pub(crate) shadow_rays: bool,
     pub(crate) ambient_rays: Option<AmbientRays>,
+    /// What they found, if neighbours share it.
+    pub(crate) occlusion_buffer: Option<OcclusionBuffer>,
     /// The maximum number of surfaces that a sight ray meets; 0 for no such rays.
     pub(crate) bounces: u32,
     /// Whether mirrors and the reflections in glass have sight rays, and not only what is behind glass.
@@ -82,6 +84,45 @@ impl LightingEnvironment {
         }
         let rays = self.rays.as_ref().filter(|_| self.shadow_rays)?;
         Some(rays.lit(simd, lamp, points, arriving))
+    }
+
+    /// The fraction of eight points' surroundings that is open; `None` without ambient occlusion. The positions are in
+    /// pixels of the image.
+    #[inline(always)]
+    pub(crate) fn open<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        pixels: [F32<S>; 2],
+        active: u64,
+    ) -> Option<F32<S>> {
+        let (ambient, scene) = (self.ambient_rays.as_ref()?, self.rays.as_ref()?);
+        let Some(buffer) = &self.occlusion_buffer else {
+            let starts = RayStarts { points, pixels, part: RayPart::All, active };
+            return Some(ambient.open(simd, scene, &starts));
+        };
+        let (found, is_known) = buffer.at(simd, points, pixels);
+        let unknown = active & !is_known.to_bitmask();
+        if unknown == 0 {
+            return Some(found);
+        }
+        let starts = RayStarts { points, pixels, part: RayPart::OfSquare(2), active: unknown };
+        let cast = ambient.open(simd, scene, &starts);
+        Some(is_known.select(found, cast))
+    }
+
+    /// As [`open`](Self::open), by the rays of one pixel in 16 alone: for the buffer.
+    #[inline(always)]
+    pub(crate) fn partly_open<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        pixels: [F32<S>; 2],
+        active: u64,
+    ) -> Option<F32<S>> {
+        let (ambient, scene) = (self.ambient_rays.as_ref()?, self.rays.as_ref()?);
+        let starts = RayStarts { points, pixels, part: RayPart::OfSquare(4), active };
+        Some(ambient.open(simd, scene, &starts))
     }
 
     /// What white matt surfaces show in ambient light.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::Quality;
-use crate::effect_settings::Shadows;
+use crate::effect_settings::{OcclusionSampling, Shadows};
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The units of work that make up a frame's time: the frame itself (its vertices and triangles),
@@ -112,6 +112,12 @@ fn work(settings: &RenderSettings) -> [f64; UNITS] {
     let pixels = f64::from(settings.width) * f64::from(settings.height);
     let shaded = pixels * f64::from(quality.shaded_samples());
     let when = |is_so: bool| if is_so { shaded } else { 0.0 };
+    let occlusion_rays = f64::from(quality.occlusion_rays)
+        * match quality.occlusion_sampling {
+            OcclusionSampling::Full => shaded,
+            // A sixteenth of them in a quarter of the pixels.
+            OcclusionSampling::Shared => pixels / 64.0,
+        };
     [
         1.0,
         pixels,
@@ -119,7 +125,7 @@ fn work(settings: &RenderSettings) -> [f64; UNITS] {
         shaded * f64::from(quality.samples.saturating_sub(1)),
         when(quality.shading == ShadingModel::Phong),
         when(quality.shadows == Shadows::Rays),
-        shaded * f64::from(quality.occlusion_rays),
+        occlusion_rays,
     ]
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::effect_settings::{Shadows, SightRays};
+use crate::effect_settings::{AmbientOcclusion, OcclusionSampling, Shadows, SightRays};
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The settings that trade accuracy for time.
@@ -17,8 +17,11 @@ pub struct Quality {
     pub shading: ShadingModel,
     /// How shadows are computed in frames that have them; [`Shadows::Off`] leaves that unchanged.
     pub shadows: Shadows,
-    /// Rays per sample in frames with ambient occlusion, 1 to 256; 0 leaves them unchanged.
+    /// As [`AmbientOcclusion::rays`](crate::AmbientOcclusion::rays) in frames with ambient occlusion, 1 to 256; 0 leaves
+    /// them and where they start unchanged.
     pub occlusion_rays: u32,
+    /// Where they start.
+    pub occlusion_sampling: OcclusionSampling,
     /// The maximum number of surfaces that a ray through glass meets in frames that trace glass
     /// alone, 1 to 16; 0 leaves it unchanged. (Its `Display` leaves it out: most scenes have no
     /// glass.)
@@ -36,6 +39,9 @@ impl Quality {
             shading: *shading,
             shadows: effects.shadows,
             occlusion_rays: effects.ambient_occlusion.map_or(0, |occlusion| occlusion.rays),
+            occlusion_sampling: effects
+                .ambient_occlusion
+                .map_or(OcclusionSampling::Full, |occlusion| occlusion.sampling),
             glass_bounces: match effects.sight {
                 SightRays::Glass { bounces } => bounces,
                 SightRays::Off | SightRays::All { .. } => 0,
@@ -56,7 +62,7 @@ impl Quality {
         if let Some(occlusion) = &mut effects.ambient_occlusion
             && self.occlusion_rays > 0
         {
-            occlusion.rays = self.occlusion_rays;
+            (occlusion.rays, occlusion.sampling) = (self.occlusion_rays, self.occlusion_sampling);
         }
         if let SightRays::Glass { bounces } = &mut effects.sight
             && self.glass_bounces > 0
@@ -92,8 +98,13 @@ impl Quality {
             Shadows::Maps { resolution } => resolution,
             Shadows::Rays => u32::MAX,
         };
-        let rays = [self.occlusion_rays, self.glass_bounces];
-        [self.shaded_samples(), self.covered_samples(), shading, shadows, rays[0], rays[1]]
+        // Few rays at every sample show more than many that pixels share.
+        let occlusion = match self.occlusion_sampling {
+            OcclusionSampling::Shared => self.occlusion_rays.min(AmbientOcclusion::MOST_RAYS),
+            OcclusionSampling::Full if self.occlusion_rays == 0 => 0,
+            OcclusionSampling::Full => AmbientOcclusion::MOST_RAYS + self.occlusion_rays,
+        };
+        [self.shaded_samples(), self.covered_samples(), shading, shadows, occlusion, self.glass_bounces]
     }
 
     /// Lighting evaluations per pixel.
@@ -128,10 +139,11 @@ impl fmt::Display for Quality {
             Shadows::Maps { resolution } => write!(f, ", shadow maps of {resolution} texels")?,
             Shadows::Rays => write!(f, ", shadows by rays")?,
         }
-        match self.occlusion_rays {
-            0 => Ok(()),
-            1 => write!(f, ", 1 occlusion ray"),
-            rays => write!(f, ", {rays} occlusion rays"),
+        match (self.occlusion_rays, self.occlusion_sampling) {
+            (0, _) => Ok(()),
+            (1, OcclusionSampling::Full) => write!(f, ", 1 occlusion ray"),
+            (rays, OcclusionSampling::Full) => write!(f, ", {rays} occlusion rays"),
+            (rays, OcclusionSampling::Shared) => write!(f, ", {rays} shared occlusion rays"),
         }
     }
 }
@@ -170,13 +182,20 @@ impl Preset {
                 samples: 1,
                 shading,
                 shadows: maps,
-                occlusion_rays: 8,
+                occlusion_rays: 32,
+                occlusion_sampling: OcclusionSampling::Shared,
                 glass_bounces: 4,
             },
             Self::Standard => {
-                Quality { samples_per_axis: 2, occlusion_rays: 16, glass_bounces: 8, ..Self::Draft.quality() }
+                Quality { samples_per_axis: 2, occlusion_rays: 64, glass_bounces: 8, ..Self::Draft.quality() }
             }
-            Self::High => Quality { samples_per_axis: 4, shadows: Shadows::Rays, ..Self::Standard.quality() },
+            Self::High => Quality {
+                samples_per_axis: 4,
+                shadows: Shadows::Rays,
+                occlusion_rays: 16,
+                occlusion_sampling: OcclusionSampling::Full,
+                ..Self::Standard.quality()
+            },
             Self::Reference => Quality { samples: 16, occlusion_rays: 64, ..Self::High.quality() },
         }
     }
@@ -221,13 +240,13 @@ pub struct UnknownPreset(pub String);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effect_settings::{AmbientOcclusion, EffectSettings};
+    use crate::effect_settings::EffectSettings;
     use crate::quality::Preset;
 
     fn asking_for_all() -> RenderSettings {
         let effects = EffectSettings {
             shadows: Shadows::Maps { resolution: 100 },
-            ambient_occlusion: Some(AmbientOcclusion { rays: 3, distance: 0.7 }),
+            ambient_occlusion: Some(AmbientOcclusion::new(3, 0.7)),
             ..EffectSettings::default()
         };
         RenderSettings { effects, ..RenderSettings::new(30, 20) }
@@ -278,6 +297,8 @@ mod tests {
         assert!(quality.to_string().starts_with("2×2 samples of 4,"), "{quality}");
         assert!(quality.to_string().contains("shadow maps of 512 texels"), "{quality}");
         assert_eq!((quality.shaded_samples(), quality.covered_samples()), (4, 16), "of a pixel");
+        (quality.occlusion_rays, quality.occlusion_sampling) = (32, OcclusionSampling::Shared);
+        assert!(quality.to_string().ends_with(", 32 shared occlusion rays"), "{quality}");
     }
 
     #[test]
@@ -294,7 +315,7 @@ mod tests {
     fn each_decides_more_than_the_one_before() {
         let samples = Preset::ALL.map(|preset| {
             let quality = preset.quality();
-            (quality.shaded_samples(), quality.covered_samples(), quality.occlusion_rays)
+            (quality.shaded_samples(), quality.covered_samples(), quality.fineness()[4])
         });
         assert!(samples.is_sorted() && samples.windows(2).all(|pair| pair[0].1 < pair[1].1), "{samples:?}");
     }

@@ -60,6 +60,8 @@ enum Purpose {
     Colors,
     /// Depth and ids only: nothing is shaded.
     Shapes,
+    /// How open the surroundings of surfaces are.
+    Openness,
 }
 
 /// One mesh at one node.
@@ -118,6 +120,16 @@ impl<'s> Composer<'s> {
         Self { purpose: Purpose::Shapes, ..colors }
     }
 
+    /// For a pass over the surfaces that finds how open their surroundings are.
+    pub(super) fn of_openness(
+        prepared: &'s PreparedScene<'_>,
+        lighting: &'s LightingEnvironment,
+        vertex_lists: &'s VertexLists,
+    ) -> Self {
+        let colors = Self::new(prepared, prepared.settings, lighting, vertex_lists);
+        Self { purpose: Purpose::Openness, ..colors }
+    }
+
     /// What they share.
     #[cfg(test)]
     pub(super) fn looks(&self) -> &Looks<'s> {
@@ -163,12 +175,16 @@ impl<'s> Composer<'s> {
         draws: &mut Vec<Box<dyn Record + 'c>>,
         counts: &mut Counts,
     ) {
+        if self.purpose == Purpose::Openness {
+            let runs = object.geometry.runs.iter();
+            return draws.extend(runs.filter_map(|run| self.openness(object, run)));
+        }
         match self.settings.style {
             Style::Surface | Style::SurfaceWithEdges => {
                 let runs = object.geometry.runs.iter();
                 draws.extend(runs.filter_map(|run| match self.purpose {
                     Purpose::Colors => Some(self.surface(object, run, counts)),
-                    Purpose::Shapes => self.shape(object, run),
+                    Purpose::Shapes | Purpose::Openness => self.shape(object, run),
                 }));
             }
             Style::HiddenLine => {
@@ -327,13 +343,7 @@ impl<'s> Composer<'s> {
     /// The look of the triangles of one slot of which only alpha is needed.
     fn bare(&self, object: &DrawnObject<'s>, run: &Run) -> SharedLook<'s> {
         let material = self.material(object, run.slot);
-        let mut bare = Material {
-            shading: Shading::Unlit,
-            emissive: Vec3::ZERO,
-            normal_map: None,
-            occlusion: None,
-            ..material.clone()
-        };
+        let mut bare = bare(material);
         if bare.alpha_mode == AlphaMode::Blend {
             bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
         }
@@ -342,6 +352,33 @@ impl<'s> Composer<'s> {
         let mut bound = BoundMaterial::new(&bare, &object.geometry.columns, &context);
         if bare.alpha_mode == AlphaMode::Opaque {
             bound.strip();
+        }
+        SharedLook::new(self.triangle_run(object, object.geometry, run), &bare, bound, &context)
+    }
+
+    /// The same triangles with how open their surroundings are. Those that are seen through are left out.
+    fn openness<'c>(&'c self, object: &DrawnObject<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
+    where
+        's: 'c,
+    {
+        let shared = self.looks.of(object.key(run), || self.opened(object, run));
+        (shared.alpha_mode != AlphaMode::Blend).then(|| self.placed::<false>(object, run, shared))
+    }
+
+    fn opened(&self, object: &DrawnObject<'s>, run: &Run) -> SharedLook<'s> {
+        let context = self.context();
+        let displayed = self.displayed(object, run.slot);
+        let is_lit = context.reflection.of(&displayed) != Shading::Unlit;
+        let mut bare = bare(&displayed);
+        // What is not lit leaves no normal.
+        bare.base_color *= Vec4::W;
+        let columns = &object.geometry.columns;
+        let mut bound = BoundMaterial::new(&bare, columns, &context);
+        if bare.alpha_mode == AlphaMode::Opaque {
+            bound.strip();
+        }
+        if is_lit {
+            bound.measure_openness(columns);
         }
         SharedLook::new(self.triangle_run(object, object.geometry, run), &bare, bound, &context)
     }
@@ -507,6 +544,17 @@ struct EdgeRange<'s> {
     /// The number of the first.
     first: usize,
     edges: &'s [[u32; 2]],
+}
+
+/// A material of which only alpha matters.
+fn bare(material: &Material) -> Material {
+    Material {
+        shading: Shading::Unlit,
+        emissive: Vec3::ZERO,
+        normal_map: None,
+        occlusion: None,
+        ..material.clone()
+    }
 }
 
 /// How the rasterizer treats an alpha mode.

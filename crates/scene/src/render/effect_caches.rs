@@ -131,6 +131,10 @@ impl EffectCaches {
         if let Some(studio) = &lighting.metal_studio {
             counts.of(Effect::MetalStudio).bytes = studio.byte_count() as u64;
         }
+        if let Some(buffer) = &lighting.occlusion_buffer {
+            counts.of(Effect::AmbientOcclusion).passes = 1;
+            counts.of(Effect::AmbientOcclusion).bytes = buffer.byte_count() as u64;
+        }
         if let Some(rays) = &lighting.rays {
             let [to_lamps, around, sight] = rays.cast();
             // Mirrors and glass share their rays.
@@ -141,7 +145,7 @@ impl EffectCaches {
                 (Effect::Refraction, sight),
             ] {
                 if plan.is_on(effect) {
-                    counts.of(effect).bytes = rays.byte_count() as u64;
+                    counts.of(effect).bytes += rays.byte_count() as u64;
                     counts.of(effect).rays = cast;
                 }
             }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use trigon_camera::Camera;
-use trigon_math::UVec2;
+use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
     Background, Cancel, ExecuteSettings, Pass, PixelExplanation, Rasterizer, Rect, Stats, Target, TargetError,
 };
@@ -21,8 +21,9 @@ use super::shared_frames::{ReusableFrame, SharedFrames};
 use super::wire::VertexLists;
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effects::{Counts, EffectCounts, LightingEnvironment};
-use crate::frame::Frame;
+use crate::effect_settings::OcclusionSampling;
+use crate::effects::{Counts, EffectCounts, LightingEnvironment, OcclusionBuffer, SmallView};
+use crate::frame::{Frame, resize};
 use crate::outputs;
 use crate::outputs::Needed;
 use crate::placement::DepthToDistance;
@@ -73,7 +74,7 @@ impl Engine {
         rasterizer.set_cancel(None);
         let prepared = PreparedScene::new(scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
-        let lighting = self.caches.lighting(&prepared, &plan, &mut rasterizer)?;
+        let lighting = self.lighting(&prepared, &plan, &mut rasterizer)?;
         let explained =
             record(&prepared, &lighting, &self.vertex_lists, settings, &mut Counts::default(), |pass, _| {
                 rasterizer.explain_pixel(pass, &target, x, y)
@@ -197,7 +198,7 @@ impl Engine {
         rasterizer: &mut Rasterizer,
         counts: &mut Counts,
     ) -> Result<(), RenderError> {
-        let lighting = self.caches.lighting(prepared, plan, rasterizer)?;
+        let lighting = self.lighting(prepared, plan, rasterizer)?;
         let settings = prepared.settings;
         if settings.xray_opacity().is_some() {
             let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
@@ -232,6 +233,25 @@ impl Engine {
         }
         self.caches.count(prepared, &lighting, plan, counts);
         Ok(())
+    }
+
+    /// The lighting environment, with what its surfaces share of ambient occlusion.
+    fn lighting(
+        &mut self,
+        prepared: &PreparedScene<'_>,
+        plan: &EffectPlan,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<LightingEnvironment, TargetError> {
+        let mut lighting = self.caches.lighting(prepared, plan, rasterizer)?;
+        let is_shared =
+            lighting.ambient_rays.as_ref().is_some_and(|rays| rays.sampling == OcclusionSampling::Shared);
+        if is_shared {
+            let draws = Composer::of_openness(prepared, &lighting, &self.vertex_lists);
+            let (buffer, stats) = draw_openness(prepared, &draws, rasterizer)?;
+            self.stats += stats;
+            lighting.occlusion_buffer = Some(buffer);
+        }
+        Ok(lighting)
     }
 
     /// Draws only ids and depth.
@@ -309,6 +329,32 @@ pub(super) fn record<T>(
     }
     draws.iter().for_each(|draw| draw.record(&mut pass));
     draw(&pass, &draws)
+}
+
+/// Draws how open the surroundings of surfaces are, at half the resolution.
+fn draw_openness(
+    prepared: &PreparedScene<'_>,
+    composer: &Composer<'_>,
+    rasterizer: &mut Rasterizer,
+) -> Result<(OcclusionBuffer, Stats), TargetError> {
+    let RenderSettings { width, height, .. } = *prepared.settings;
+    let projection = &prepared.camera.projection;
+    let view = SmallView::new(projection, prepared.eye.projection(), [width, height]);
+    let draws = composer.draws(&mut Counts::default());
+    let mut pass = Pass::new();
+    pass.background(Background::Color(Vec4::ZERO));
+    draws.iter().for_each(|draw| draw.record(&mut pass));
+    let full = TargetError::Memory { width: view.width, height: view.height };
+    let pixels = view.width as usize * view.height as usize;
+    let (mut found, mut depths) = (Vec::new(), Vec::new());
+    resize(&mut found, pixels, Vec4::ZERO).ok_or(full)?;
+    resize(&mut depths, pixels, 0.0).ok_or(full)?;
+    let target = Target::new(view.width, view.height, &[])?;
+    let mut target = target.with_linear(&mut found)?.with_depth(&mut depths)?;
+    let stats = rasterizer.draw(&pass, &mut target);
+    let distance = DepthToDistance::new(projection, prepared.settings.aspect());
+    depths.iter_mut().for_each(|depth| *depth = distance.at(*depth));
+    Ok((OcclusionBuffer::new(view, &found, &depths, rasterizer), stats))
 }
 
 /// How many samples a frame has.

@@ -100,6 +100,14 @@ impl<'a> BoundMaterial<'a> {
         per_triangle && is_even && self.layout.count == 0
     }
 
+    /// Leaves the openness of the surface in place of colours. Of its material alone the mask remains.
+    pub(crate) fn measure_openness(&mut self, columns: &Columns) {
+        let layout = &mut self.layout;
+        self.illumination = Illumination::Openness;
+        layout.position = Some(layout.add(3));
+        layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
+    }
+
     /// Removes everything but the shape.
     pub(crate) fn strip(&mut self) {
         self.layout = Layout::default();
@@ -162,7 +170,7 @@ impl<'a> Fitting<'_, 'a> {
             Illumination::Value(Display::TextureCoordinates) if !columns.uv_sets.is_empty() => {
                 layout.shown_uv = Some(layout.add_coordinates(0, Affine2::IDENTITY));
             }
-            Illumination::Value(_) => {}
+            Illumination::Value(_) | Illumination::Openness => {}
         }
     }
 }

@@ -95,6 +95,8 @@ pub(crate) enum Illumination {
     OnFacets,
     /// Nowhere: surfaces show one of their values.
     Value(Display),
+    /// Nowhere: surfaces leave their normals, and how open their surroundings are, in an image of their own.
+    Openness,
 }
 
 #[cfg(test)]

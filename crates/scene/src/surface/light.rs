@@ -101,14 +101,26 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             #[inline(always)]
             || {
                 let points = self.points(simd, fragments);
-                let open = match (&self.lighting.ambient_rays, &self.lighting.rays) {
-                    (Some(ambient), Some(scene)) => {
-                        let (pixel, active) = (fragments.position(), fragments.active());
-                        Some(ambient.open(simd, scene, &points, pixel, active))
-                    }
-                    _ => None,
-                };
+                let (pixel, active) = (fragments.position(), fragments.active());
+                let open = self.lighting.open(simd, &points, pixel, active);
                 self.shaded(simd, fragments, &points, open, albedo)
+            },
+        )
+    }
+
+    /// Normals, and the fraction of the surroundings that is open by a part of the rays: no colour.
+    pub(super) fn openness<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let points = self.points(simd, fragments);
+                let (pixel, active) = (fragments.position(), fragments.active());
+                let open = match self.lighting.partly_open(simd, &points, pixel, active) {
+                    Some(open) => open,
+                    None => F32::splat(simd, 1.0),
+                };
+                let [x, y, z] = points.facing;
+                [x, y, z, open]
             },
         )
     }

@@ -164,7 +164,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             Illumination::None
             | Illumination::AtVertices
             | Illumination::InPixels
-            | Illumination::Value(_) => base,
+            | Illumination::Value(_)
+            | Illumination::Openness => base,
         };
         let emissive = self.params.material.emissive;
         if emissive != Vec3::ZERO {

@@ -94,7 +94,7 @@ fn rich() -> (Scene, RenderSettings) {
     let mut settings = RenderSettings { samples_per_axis: 2, ..settings(SIDE, Outputs::ALL) };
     settings.effects.shadows = Shadows::Rays;
     settings.effects.sight = SightRays::All { bounces: 3 };
-    settings.effects.ambient_occlusion = Some(AmbientOcclusion { distance: 1.0, rays: 4 });
+    settings.effects.ambient_occlusion = Some(AmbientOcclusion::new(4, 1.0));
     (settings.effects.tone_mapping, settings.effects.exposure) =
         (ToneMapping::KhronosPbrNeutral, Exposure::Stops(0.5));
     (scene, settings)

@@ -60,7 +60,7 @@ mod tests {
         assert_eq!(samples(&settings), [(1, 1), (2, 1), (4, 1), (4, 16)], "all presets are better");
         settings.samples_per_axis = 3;
         assert_eq!(samples(&settings), [(3, 1), (4, 1), (4, 16)], "one shades less and is left out");
-        settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 40, distance: 1.0 });
+        settings.effects.ambient_occlusion = Some(AmbientOcclusion::new(40, 1.0));
         assert_eq!(samples(&settings), [(3, 1), (4, 16)], "one has fewer rays and is left out");
         Preset::Reference.apply(&mut settings);
         assert_eq!(ladder(&settings, false), [settings.clone()], "the reference is the reference");

@@ -48,6 +48,7 @@ impl Stage {
         }
         if let Some(occlusion) = &mut effects.ambient_occlusion {
             occlusion.rays = occlusion.rays.min(most.occlusion_rays);
+            occlusion.sampling = most.occlusion_sampling;
         }
         if let SightRays::Glass { bounces } = &mut effects.sight {
             *bounces = (*bounces).min(most.glass_bounces);

@@ -5,7 +5,9 @@ use crate::refinement::Wanted;
 use crate::shown;
 use trigon_mesh::primitives;
 use trigon_scene::quality::Preset;
-use trigon_scene::{AmbientOcclusion, Material, Outputs, Shadows, SightRays, VertexPoints};
+use trigon_scene::{
+    AmbientOcclusion, Material, OcclusionSampling, Outputs, Shadows, SightRays, VertexPoints,
+};
 
 fn stage() -> Stage {
     let mut stage = Stage::new("test");
@@ -127,12 +129,12 @@ fn drafts_have_no_more_rays_than_the_draft_preset() {
     let most = Preset::Draft.quality();
     stage.settings.effects.shadows = Shadows::Rays;
     for rays in [0, most.occlusion_rays, most.occlusion_rays + 30] {
-        stage.settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays, distance: 1.0 });
+        stage.settings.effects.ambient_occlusion = Some(AmbientOcclusion::new(rays, 1.0));
         let effects = stage.draft_settings(1.0).effects;
         assert_eq!(effects.shadows, most.shadows);
         assert_eq!(
-            effects.ambient_occlusion.map(|occlusion| occlusion.rays),
-            Some(rays.min(most.occlusion_rays))
+            effects.ambient_occlusion.map(|occlusion| (occlusion.rays, occlusion.sampling)),
+            Some((rays.min(most.occlusion_rays), OcclusionSampling::Shared))
         );
     }
     stage.settings.effects.shadows = Shadows::Off;

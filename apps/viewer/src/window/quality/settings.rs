@@ -1,6 +1,8 @@
 //! The settings that trade accuracy for time, with their choices.
 
-use trigon_scene::{AmbientOcclusion, Reflection, RenderSettings, ShadingModel, Shadows, SightRays};
+use trigon_scene::{
+    AmbientOcclusion, OcclusionSampling, Reflection, RenderSettings, ShadingModel, Shadows, SightRays,
+};
 
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,6 +19,19 @@ pub(super) enum Setting {
 /// How far surroundings count for ambient occlusion that is switched on here, in metres:
 /// as on the command line.
 const OCCLUSION_DISTANCE: f32 = 1.0;
+
+/// Rays of ambient occlusion, from the quickest to the most accurate.
+const OCCLUSION: [(u32, OcclusionSampling); 9] = [
+    (0, OcclusionSampling::Full),
+    (32, OcclusionSampling::Shared),
+    (64, OcclusionSampling::Shared),
+    (4, OcclusionSampling::Full),
+    (8, OcclusionSampling::Full),
+    (16, OcclusionSampling::Full),
+    (32, OcclusionSampling::Full),
+    (64, OcclusionSampling::Full),
+    (128, OcclusionSampling::Full),
+];
 
 impl Setting {
     /// In the order of the panel.
@@ -83,8 +98,11 @@ impl Setting {
             ]
             .map(|(name, shadows)| named(name, &|settings| settings.effects.shadows = shadows))
             .into(),
-            Self::Occlusion => [0, 4, 8, 16, 32, 64, 128]
-                .map(|rays| with(rays_name(rays), &|settings| set_rays(settings, rays)))
+            Self::Occlusion => OCCLUSION
+                .map(|(rays, sampling)| {
+                    let name = occlusion_name(rays, sampling);
+                    with(name, &|settings| set_occlusion(settings, rays, sampling))
+                })
                 .into(),
             Self::Bounces => sight_choices(settings.effects.sight)
                 .map(|(name, sight)| with(name, &|settings| settings.effects.sight = sight))
@@ -97,8 +115,12 @@ fn extra_samples(samples: u32) -> String {
     if samples == 1 { "none".to_owned() } else { samples.to_string() }
 }
 
-fn rays_name(rays: u32) -> String {
-    if rays == 0 { "none".to_owned() } else { format!("{rays} rays per sample") }
+fn occlusion_name(rays: u32, sampling: OcclusionSampling) -> String {
+    match (rays, sampling) {
+        (0, _) => "none".to_owned(),
+        (rays, OcclusionSampling::Full) => format!("{rays} rays per sample"),
+        (rays, OcclusionSampling::Shared) => format!("{rays} shared rays"),
+    }
 }
 
 /// Those for glass alone keep the number of bounces.
@@ -118,10 +140,11 @@ fn sight_choices(current: SightRays) -> [(String, SightRays); 6] {
     ]
 }
 
-fn set_rays(settings: &mut RenderSettings, rays: u32) {
+fn set_occlusion(settings: &mut RenderSettings, rays: u32, sampling: OcclusionSampling) {
     let occlusion = &mut settings.effects.ambient_occlusion;
     let distance = occlusion.map_or(OCCLUSION_DISTANCE, |occlusion| occlusion.distance);
-    *occlusion = (rays > 0).then_some(AmbientOcclusion { rays, distance });
+    let requested = AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, distance) };
+    *occlusion = (rays > 0).then_some(requested);
 }
 
 #[cfg(test)]
@@ -145,7 +168,7 @@ mod tests {
     #[test]
     fn occlusion_keeps_its_distance() {
         let mut settings = RenderSettings::new(8, 8);
-        settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 8, distance: 0.25 });
+        settings.effects.ambient_occlusion = Some(AmbientOcclusion::new(8, 0.25));
         let choices = Setting::Occlusion.choices(&settings);
         let kept = choices.iter().filter_map(|(_, choice)| choice.effects.ambient_occlusion);
         assert!(

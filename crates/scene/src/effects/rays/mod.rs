@@ -6,6 +6,7 @@
 //! plate.
 
 mod occlusion;
+mod occlusion_buffer;
 mod optics;
 mod surface_hit;
 
@@ -25,7 +26,8 @@ use crate::lighting::{Arriving, Lamp, LampSource, LitPoints};
 use crate::scene::Scene;
 use crate::work::{Work, note};
 
-pub(crate) use occlusion::AmbientRays;
+pub(crate) use occlusion::{AmbientRays, RayPart, RayStarts};
+pub(crate) use occlusion_buffer::{OcclusionBuffer, SmallView};
 pub(crate) use optics::{Glass, Medium, Optics, left_after};
 pub(crate) use surface_hit::SurfaceHit;
 

@@ -1,23 +1,21 @@
 //! Ambient occlusion: the fraction of cosine-weighted rays that leave the surroundings of a point
 //! (H. Landis, "Production-Ready Global Illumination", 2002).
 //!
-//! Every pixel uses the same directions, a spiral over the disc below the hemisphere (which gives the cosine
-//! weights), rotated about the normal by one of 16 angles. The pixel's position in a square of four by four
-//! selects the angle: neighbours differ, and the image is reproducible.
+//! The directions are a spiral over the disc below the hemisphere, which gives the cosine weights.
+//! [Full sampling](OcclusionSampling::Full) casts all of them at every point, rotated about the normal by one of 16
+//! angles. Otherwise points cast a part of them each, and neighbours complete each other. The pixel's position in a
+//! square of four by four selects the angle or the part: neighbours differ, and the image is reproducible.
 
 use crate::work::{Work, note};
 use std::sync::atomic::Ordering;
 
 use trigon_math::{Hemispheres, Rays, Vec2, Vec3, elementary};
-use trigon_raster::simd::{F32, LANES, Mask, Simd, prelude::*};
+use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
 
 use super::{RayScene, columns, rows};
-use crate::effect_settings::AmbientOcclusion;
+use crate::effect_settings::{AmbientOcclusion, OcclusionSampling};
 use crate::lanes::{V3, scaled, sum, turned};
 use crate::lighting::LitPoints;
-
-/// The maximum number of rays per pixel.
-const MOST: u32 = 256;
 
 /// Sines and cosines of the turns.
 const TURNS: usize = 16;
@@ -29,13 +27,39 @@ pub(crate) struct AmbientRays {
     directions: Vec<Vec3>,
     turns: [Vec2; TURNS],
     distance: f32,
+    pub(crate) sampling: OcclusionSampling,
+}
+
+/// Which of the rays start at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RayPart {
+    /// All, turned.
+    All,
+    /// Those of one in so many pixels, in a square of pixels: 2 or 4 is the square's side.
+    OfSquare(usize),
+}
+
+/// Eight points from which rays start.
+#[derive(Clone, Copy)]
+pub(crate) struct RayStarts<'a, S: Simd> {
+    pub(crate) points: &'a LitPoints<S>,
+    /// Where they lie in the image, in pixels.
+    pub(crate) pixels: [F32<S>; 2],
+    pub(crate) part: RayPart,
+    /// A bit for each point in use.
+    pub(crate) active: u64,
 }
 
 impl AmbientRays {
     pub(crate) fn new(settings: AmbientOcclusion) -> Self {
         /// The golden angle, in radians.
         const STEP: f32 = 2.399_963_2;
-        let count = settings.rays.clamp(1, MOST);
+        let requested = settings.rays.clamp(1, AmbientOcclusion::MOST_RAYS);
+        let count = match settings.sampling {
+            OcclusionSampling::Full => requested,
+            // Each pixel of a square gets as many.
+            OcclusionSampling::Shared => requested.next_multiple_of(TURNS as u32),
+        };
         let direction = |i: u32| {
             let square = (i as f32 + 0.5) / count as f32;
             let (radius, angle) = (square.sqrt(), i as f32 * STEP);
@@ -51,18 +75,13 @@ impl AmbientRays {
             directions: (0..count).map(direction).collect(),
             turns: std::array::from_fn(turn),
             distance: settings.distance,
+            sampling: settings.sampling,
         }
     }
 
-    /// The fraction of rays that leave the surroundings of eight points at these pixel positions.
-    pub(crate) fn open<S: Simd>(
-        &self,
-        simd: S,
-        scene: &RayScene,
-        points: &LitPoints<S>,
-        pixels: [F32<S>; 2],
-        active: u64,
-    ) -> F32<S> {
+    /// The fraction of rays that leave the surroundings of eight points.
+    pub(crate) fn open<S: Simd>(&self, simd: S, scene: &RayScene, starts: &RayStarts<'_, S>) -> F32<S> {
+        let RayStarts { points, pixels, part, active } = *starts;
         simd.vectorize(
             #[inline(always)]
             || {
@@ -76,37 +95,94 @@ impl AmbientRays {
                 if active == 0 || surroundings.is_empty() {
                     return one;
                 }
-                let [right, up] = self.frames(simd, normal, pixels);
+                let frames = self.frames(simd, normal, pixels, part);
+                let first = first_of(pixels, part);
+                let step = part.step();
+                let count = self.directions.len() / step;
                 let (start, end) = (zero, F32::splat(simd, self.distance));
                 let mut open = zero;
-                for along in &self.directions {
-                    let flat =
-                        sum(scaled(right, F32::splat(simd, along.x)), scaled(up, F32::splat(simd, along.y)));
-                    let direction = sum(flat, scaled(normal, F32::splat(simd, along.z)));
+                for index in 0..count {
+                    let [x, y, z] = self.lanes_of(simd, &first, index * step);
+                    let flat = sum(scaled(frames[0], x), scaled(frames[1], y));
+                    let direction = sum(flat, scaled(normal, z));
                     let rays = Rays { origin, direction, start, end, active };
                     let occluded = scene.triangles.bvh.occluded_rays(simd, &rays, Some(&surroundings));
                     open += Mask::from_bitmask(simd, u64::from(occluded)).select(zero, one);
                 }
                 note(Work::OcclusionRay);
-                let cast = u64::from(active.count_ones()) * self.directions.len() as u64;
+                let cast = u64::from(active.count_ones()) * count as u64;
                 scene.cast[1].fetch_add(cast, Ordering::Relaxed);
-                open / self.directions.len() as f32
+                open / count as f32
             },
         )
     }
 
-    /// Two unit vectors along eight surfaces, turned as the positions of the pixels say.
+    /// Directions around +Z, each counted from the first one of its lane.
     #[inline(always)]
-    fn frames<S: Simd>(&self, simd: S, normal: V3<S>, [x, y]: [F32<S>; 2]) -> [V3<S>; 2] {
+    fn lanes_of<S: Simd>(&self, simd: S, first: &[usize; LANES], offset: usize) -> V3<S> {
+        let mut directions = [Vec3::ZERO; LANES];
+        for (direction, first) in directions.iter_mut().zip(first) {
+            *direction = self.directions[first + offset];
+        }
+        columns(simd, &directions)
+    }
+
+    /// Two unit vectors along eight surfaces, turned as the positions of the pixels say if all rays are cast.
+    #[inline(always)]
+    fn frames<S: Simd>(&self, simd: S, normal: V3<S>, pixels: [F32<S>; 2], part: RayPart) -> [V3<S>; 2] {
         let [nx, ny, nz] = rows(normal);
-        let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
+        let numbers = numbers_in_square(pixels, 4);
         let (mut right, mut up) = ([Vec3::ZERO; LANES], [Vec3::ZERO; LANES]);
         for lane in 0..LANES {
-            let turn = self.turns[(y[lane] as usize % 4) * 4 + x[lane] as usize % 4];
             let (tangent, bitangent) = Vec3::new(nx[lane], ny[lane], nz[lane]).any_orthonormal_pair();
+            let turn = match part {
+                RayPart::All => self.turns[numbers[lane]],
+                RayPart::OfSquare(_) => Vec2::X,
+            };
             right[lane] = tangent * turn.x + bitangent * turn.y;
             up[lane] = bitangent * turn.x - tangent * turn.y;
         }
         [columns(simd, &right), columns(simd, &up)]
     }
+}
+
+impl RayPart {
+    /// One in so many rays is cast.
+    fn step(self) -> usize {
+        match self {
+            Self::All => 1,
+            Self::OfSquare(side) => side * side,
+        }
+    }
+}
+
+/// The number of the first ray of each pixel.
+#[inline(always)]
+fn first_of<S: Simd>(pixels: [F32<S>; 2], part: RayPart) -> [usize; LANES] {
+    match part {
+        RayPart::All => [0; LANES],
+        RayPart::OfSquare(side) => {
+            let bits = (side * side).trailing_zeros();
+            numbers_in_square(pixels, side).each(
+                #[inline(always)]
+                // Bit-reversed, as turns are.
+                |number| usize::from((number as u8).reverse_bits() >> (8 - bits)),
+            )
+        }
+    }
+}
+
+/// Where pixels lie in a square of pixels, row by row.
+#[inline(always)]
+fn numbers_in_square<S: Simd>([x, y]: [F32<S>; 2], side: usize) -> [usize; LANES] {
+    let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
+    let number = inlined(
+        #[inline(always)]
+        |lane: usize| (y[lane] as usize % side) * side + x[lane] as usize % side,
+    );
+    let mut numbers = [0; LANES];
+    for (lane, place) in numbers.iter_mut().enumerate() {
+        *place = number(lane);
+    }
+    numbers
 }

@@ -4,6 +4,7 @@ mod backdrop;
 mod glass;
 mod kept;
 mod metals;
+mod occlusion;
 mod planning;
 mod poses;
 mod shading;

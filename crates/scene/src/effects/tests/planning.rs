@@ -62,7 +62,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
         }
         Effect::AmbientOcclusion => {
             (material, lights) = (lit, vec![Light::ambient(1.0)]);
-            effects.ambient_occlusion = Some(AmbientOcclusion { rays: 4, distance: 1.0 });
+            effects.ambient_occlusion = Some(AmbientOcclusion::new(4, 1.0));
         }
         Effect::Reflection | Effect::Refraction => {
             let metallic = if effect == Effect::Reflection { 1.0 } else { 0.0 };
@@ -290,7 +290,7 @@ fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
                 shadows: [Shadows::Off, Shadows::Rays, Shadows::Maps { resolution: 16 }]
                     [usize::from(shadows)],
                 environment: environment.then(|| Arc::new(Environment::uniform(Vec3::ONE))),
-                ambient_occlusion: occlusion.then_some(AmbientOcclusion { rays: 2, distance: 1.0 }),
+                ambient_occlusion: occlusion.then_some(AmbientOcclusion::new(2, 1.0)),
                 fog: fog.then_some(Fog { color: Vec3::ONE, density: 0.1 }),
                 outline: outline.then(|| Outline { nodes: vec![ball], color: Vec3::X, width: 2 }),
                 sight: if bounces == 1 { SightRays::default() } else { SightRays::all(bounces) },

@@ -160,7 +160,7 @@ fn normals_of_polygons_draw_what_normals_of_vertices_draw() {
     check("edges", &lit, false, &RenderSettings { style: Style::SurfaceWithEdges, ..small.clone() });
     let effects = EffectSettings {
         shadows: Shadows::Rays,
-        ambient_occlusion: Some(AmbientOcclusion { rays: 2, distance: 0.5 }),
+        ambient_occlusion: Some(AmbientOcclusion::new(2, 0.5)),
         fog: Some(Fog { color: Vec3::ONE, density: 0.1 }),
         sight: SightRays::all(2),
         ..EffectSettings::default()

@@ -101,7 +101,7 @@ fn a_wall_takes_half_of_the_sky_away() {
         Transform::from_scale_rotation_translation(DVec3::ONE, upright, DVec3::X * 0.5);
     scene.add(Node::from_light(Light::ambient(1.0)));
     let occlusion = |distance| EffectSettings {
-        ambient_occlusion: Some(AmbientOcclusion { rays: 64, distance }),
+        ambient_occlusion: Some(AmbientOcclusion::new(64, distance)),
         ..Default::default()
     };
     let mean = |frame: &Frame, x: u32| (40..80).map(|y| light(frame, x, y)).sum::<f32>() / 40.0;

@@ -186,7 +186,7 @@ fn another_drawer_is_used_at_rest_and_compared_with_the_renderer() {
 fn drafts_cast_few_rays() {
     let mut stage = stage();
     stage.settings.effects.shadows = trigon_scene::Shadows::Rays;
-    let occlusion = trigon_scene::AmbientOcclusion { rays: 256, distance: 1.0 };
+    let occlusion = trigon_scene::AmbientOcclusion::new(256, 1.0);
     stage.settings.effects.ambient_occlusion = Some(occlusion);
     let draft = trigon_scene::quality::Quality::of(&stage.draft_settings(1.0));
     assert_eq!(draft, Preset::Draft.quality(), "as the preset for drafts says");

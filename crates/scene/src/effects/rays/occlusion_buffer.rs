@@ -1,0 +1,320 @@
+//! Ambient occlusion at half the resolution of an image, and how the samples of the image read it.
+//!
+//! **Made** in two steps. A pass over the visible surfaces casts a sixteenth of the rays at each pixel of an image of
+//! half the size ([`AmbientRays`](super::AmbientRays)). Then every pixel takes the mean of the 4×4 pixels around it (5×5,
+//! the outermost ones by half), which have cast all the rays together.
+//!
+//! **Read** bilinearly at every sample of the image.
+//!
+//! Both steps weigh a neighbour by its distance from the plane through the point, so neither objects nor the sides of an
+//! edge mix, and on surfaces that the eye sees at a grazing angle all neighbours count. The mean weighs it by the angle
+//! between both normals, too. A sample none of whose neighbours lies on its surface is reported, and casts rays itself.
+
+use trigon_camera::Projection;
+use trigon_math::simd::Token;
+use trigon_math::{DMat4, Vec3, Vec4, at_level};
+use trigon_raster::Rasterizer;
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{
+    F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lane_numbers, lanes_of, lesser,
+};
+
+use crate::lanes::{V3, dot, positive};
+use crate::lighting::LitPoints;
+
+/// How far the mean reaches, in pixels to each side. As many lie around the image, empty.
+const REACH: usize = 2;
+
+/// The weights of the mean across one axis.
+const MEAN: [f32; 2 * REACH + 1] = [0.5, 1.0, 1.0, 1.0, 0.5];
+
+/// Where nothing is: farther from every plane than any weight reaches.
+const NOWHERE: f32 = 1e30;
+
+/// The fraction of open surroundings at each pixel of a small image.
+#[derive(Debug)]
+pub(crate) struct OcclusionBuffer {
+    view: SmallView,
+    /// Row by row, with empty pixels around them.
+    open: Vec<f32>,
+    /// Along the axis of the view, in metres.
+    distances: Vec<f32>,
+}
+
+/// How a small image sees the space of its camera.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SmallView {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    /// Its pixels in a pixel of the image, across and down.
+    scale: [f32; 2],
+    /// How far apart two pixels lie at distance 1, and where the first corner lies, across and up.
+    step: [f32; 2],
+    corner: [f32; 2],
+    /// Whether rays meet in the eye.
+    meets: bool,
+}
+
+impl SmallView {
+    /// Of an image of this size through a projection; of half the size.
+    pub(crate) fn new(projection: &Projection, matrix: &DMat4, [width, height]: [u32; 2]) -> Self {
+        let size = [width.div_ceil(2), height.div_ceil(2)];
+        let meets = !projection.is_orthographic();
+        // What a projection matrix adds to x and y: in perspective in proportion to −z, which it divides by.
+        let shift = if meets { matrix.z_axis * -1.0 } else { matrix.w_axis };
+        let (factor, shift) = ([matrix.x_axis.x, matrix.y_axis.y], [shift.x, shift.y]);
+        let pixels = size.map(f64::from);
+        // From −1…1, y up, to pixels, y down.
+        let step = [2.0 / (pixels[0] * factor[0]), -2.0 / (pixels[1] * factor[1])];
+        let corner = [(-1.0 - shift[0]) / factor[0], (1.0 - shift[1]) / factor[1]];
+        Self {
+            width: size[0],
+            height: size[1],
+            scale: [pixels[0] / f64::from(width), pixels[1] / f64::from(height)].map(|scale| scale as f32),
+            step: step.map(|step| step as f32),
+            corner: corner.map(|corner| corner as f32),
+            meets,
+        }
+    }
+
+    /// The pixels of a row, with those around it; the last vector may reach as far.
+    fn stride(&self) -> usize {
+        self.width as usize + 2 * REACH + LANES
+    }
+
+    /// All pixels, with those around them.
+    fn len(&self) -> usize {
+        self.stride() * (self.height as usize + 2 * REACH)
+    }
+
+    /// The slopes of the rays through the middle of columns or rows; in a parallel view their offsets.
+    #[inline(always)]
+    fn slopes<S: Simd>(&self, axis: usize, number: F32<S>) -> F32<S> {
+        (number + 0.5) * self.step[axis] + self.corner[axis]
+    }
+
+    /// Where eight pixels of a row see surfaces at these distances. Counted with the empty pixels.
+    #[inline(always)]
+    fn positions<S: Simd>(&self, [column, row]: [usize; 2], distance: F32<S>) -> V3<S> {
+        let (simd, spread) = (distance.token(), self.spread(distance));
+        let columns = lane_numbers(simd).to_float::<F32<S>>() + (column as f32 - REACH as f32);
+        let rows = F32::splat(simd, row as f32 - REACH as f32);
+        [self.slopes(0, columns) * spread, self.slopes(1, rows) * spread, -distance]
+    }
+
+    /// The factor on slopes at a distance.
+    #[inline(always)]
+    fn spread<S: Simd>(&self, distance: F32<S>) -> F32<S> {
+        if self.meets { distance } else { F32::splat(distance.token(), 1.0) }
+    }
+
+    /// The width or height of a pixel at distance 1, whichever is larger.
+    #[inline(always)]
+    fn widest(&self) -> f32 {
+        let [width, height] = self.step.map(f32::abs);
+        if width > height { width } else { height }
+    }
+}
+
+impl OcclusionBuffer {
+    /// From the pass over the surfaces: for each pixel the normal and the fraction of its rays that leave the
+    /// surroundings, and the distance along the view's axis.
+    pub(crate) fn new(view: SmallView, found: &[Vec4], distances: &[f32], rasterizer: &Rasterizer) -> Self {
+        let surfaces = Surfaces::new(view, found, distances);
+        let (stride, token) = (view.stride(), Token::best());
+        let mut open = vec![1.0; view.len()];
+        let rows = open.chunks_mut(stride).enumerate().skip(REACH).take(view.height as usize);
+        rasterizer.share(rows, |(row, open)| at_level!(token, simd => surfaces.mean(simd, row, open)));
+        Self { view, open, distances: surfaces.distances }
+    }
+
+    pub(crate) fn byte_count(&self) -> usize {
+        size_of_val(self.open.as_slice()) + size_of_val(self.distances.as_slice())
+    }
+
+    /// The fraction at eight points, and which of them it is known for. The positions are in pixels of the image.
+    #[inline(always)]
+    pub(crate) fn at<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        position: [F32<S>; 2],
+    ) -> (F32<S>, Mask<S>) {
+        /// With less on its surface, a sample knows too little.
+        const LEAST: f32 = 1.0 / 16.0;
+        /// How far off the plane a neighbour counts, in pixels of the small image.
+        const OFF: f32 = 0.5;
+        let view = &self.view;
+        let (zero, one) = (F32::splat(simd, 0.0), F32::splat(simd, 1.0));
+        let (sizes, stride) = ([view.width, view.height], view.stride());
+        // The first of two pixels, held next to the image, and the weight of the second.
+        let axis = inlined(
+            #[inline(always)]
+            |axis: usize| {
+                let at = position[axis] * view.scale[axis] - 0.5;
+                let held = lesser(greater(at, zero - 1.0), F32::splat(simd, sizes[axis] as f32 - 0.5));
+                let first = held.floor();
+                (first, held - first)
+            },
+        );
+        let ((column, across), (row, down)) = (axis(0), axis(1));
+        let normal = points.facing;
+        let plane = dot(normal, points.position);
+        let width = view.spread(-points.position[2]) * view.widest();
+        let inverse = F32::splat(simd, 1.0 / OFF) / width;
+        let first = (row + REACH as f32) * stride as f32 + (column + REACH as f32);
+        let first: [i32; LANES] = first.to_int::<I32<S>>().into();
+        let (mut sum, mut open) = (zero, zero);
+        for (below, row_weight) in [(0, one - down), (1, down)] {
+            for (beside, column_weight) in [(0, one - across), (1, across)] {
+                let offset = below * stride + beside;
+                let fetched = inlined(
+                    #[inline(always)]
+                    |values: &[f32]| {
+                        F32::simd_from(
+                            simd,
+                            lanes_of(
+                                #[inline(always)]
+                                |lane| values[first[lane] as usize + offset],
+                            ),
+                        )
+                    },
+                );
+                let (distance, fraction) = (fetched(&self.distances), fetched(&self.open));
+                let spread = view.spread(distance);
+                let x = view.slopes(0, column + beside as f32) * spread;
+                let y = view.slopes(1, row + below as f32) * spread;
+                let off = dot(normal, [x, y, -distance]) - plane;
+                let weight = row_weight * column_weight * positive(one - off.abs() * inverse);
+                sum += weight;
+                open += weight * fraction;
+            }
+        }
+        let known = sum.simd_ge(LEAST);
+        (known.select(open / sum, one), known)
+    }
+}
+
+/// The surfaces of a small image, value by value, with empty pixels around them.
+struct Surfaces {
+    view: SmallView,
+    normals: [Vec<f32>; 3],
+    distances: Vec<f32>,
+    /// By the rays of the pixel alone.
+    open: Vec<f32>,
+}
+
+impl Surfaces {
+    fn new(view: SmallView, found: &[Vec4], distances: &[f32]) -> Self {
+        let empty = |value| vec![value; view.len()];
+        let normals = [empty(0.0), empty(0.0), empty(0.0)];
+        let mut surfaces = Self { view, normals, distances: empty(NOWHERE), open: empty(1.0) };
+        let width = view.width as usize;
+        for (row, (found, distances)) in found.chunks(width).zip(distances.chunks(width)).enumerate() {
+            let start = (row + REACH) * view.stride() + REACH;
+            for (column, (found, &distance)) in found.iter().zip(distances).enumerate() {
+                if distance < NOWHERE && found.truncate() != Vec3::ZERO {
+                    surfaces.distances[start + column] = distance;
+                    surfaces.open[start + column] = found.w;
+                    for (axis, normals) in surfaces.normals.iter_mut().enumerate() {
+                        normals[start + column] = found[axis];
+                    }
+                }
+            }
+        }
+        surfaces
+    }
+
+    /// The means of a row of pixels with their neighbours on the same surface.
+    #[inline(always)]
+    fn mean<S: Simd>(&self, simd: S, row: usize, open: &mut [f32]) {
+        let start = row * self.view.stride();
+        let columns = REACH..REACH + self.view.width as usize;
+        for column in columns.step_by(LANES) {
+            let distances = eight(simd, &self.distances, start + column);
+            if distances.simd_lt(NOWHERE).any_true() {
+                let mean = self.mean_of_eight(simd, [column, row], distances);
+                mean.store_slice(&mut open[column..column + LANES]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn mean_of_eight<S: Simd>(&self, simd: S, [column, row]: [usize; 2], distance: F32<S>) -> F32<S> {
+        let (view, zero, one) = (&self.view, F32::splat(simd, 0.0), F32::splat(simd, 1.0));
+        let index = row * view.stride() + column;
+        let normal = self.normals.each_ref().each(
+            #[inline(always)]
+            |values| eight(simd, values, index),
+        );
+        let plane = dot(normal, view.positions([column, row], distance));
+        let inverse = one / (view.spread(distance) * view.widest());
+        let (mut sum, mut open) = (zero, zero);
+        for (down, down_weight) in MEAN.iter().enumerate() {
+            for (across, across_weight) in MEAN.iter().enumerate() {
+                let [column, row] = [column + across - REACH, row + down - REACH];
+                let index = row * view.stride() + column;
+                let off =
+                    dot(normal, view.positions([column, row], eight(simd, &self.distances, index))) - plane;
+                let other = self.normals.each_ref().each(
+                    #[inline(always)]
+                    |values| eight(simd, values, index),
+                );
+                let near = positive(one - off.abs() * inverse) * positive(dot(normal, other) * 2.0 - 1.0);
+                let weight = near * (down_weight * across_weight);
+                sum += weight;
+                open += weight * eight(simd, &self.open, index);
+            }
+        }
+        sum.simd_gt(0.0).select(open / sum, one)
+    }
+}
+
+/// Eight values in a row.
+#[inline(always)]
+fn eight<S: Simd>(simd: S, values: &[f32], first: usize) -> F32<S> {
+    F32::from_slice(simd, &values[first..first + LANES])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::Fallback;
+    use proptest::prelude::*;
+
+    fn projection() -> impl Strategy<Value = Projection> {
+        let window = [-2.0_f64..0.5, 0.6..2.0, -1.0..-0.1, 0.0..1.5];
+        prop_oneof![
+            (0.2_f64..2.8).prop_map(|angle| Projection::perspective(angle, 0.1, None)),
+            (0.1_f64..50.0).prop_map(|height| Projection::orthographic(height, -1.0, 20.0)),
+            window.prop_map(|[left, right, low, high]| {
+                Projection::frustum(left, right, low, high, 1.0, Some(9.0))
+            }),
+        ]
+        .prop_map(|projection| projection.expect("the numbers are in range"))
+    }
+
+    proptest! {
+        /// By the projection matrix.
+        #[test]
+        fn pixels_lie_where_the_projection_puts_them(
+            projection in projection(), size in [1_u32..300, 1_u32..300], share in [0.0_f64..1.0, 0.0..1.0],
+            distance in 0.5_f32..9.0,
+        ) {
+            let matrix = projection.matrix(f64::from(size[0]) / f64::from(size[1]));
+            let view = SmallView::new(&projection, &matrix, size);
+            let small = [view.width, view.height].map(f64::from);
+            let pixel = [share[0] * small[0], share[1] * small[1]].map(f64::floor);
+            let place = pixel.map(|number| number as usize + REACH);
+            let point = view.positions(place, F32::splat(Fallback::new(), distance)).map(|axis| axis[0]);
+            let clip = matrix.project_point3(Vec3::from_array(point).as_dvec3());
+            let found = [(1.0 + clip.x) / 2.0 * small[0], (1.0 - clip.y) / 2.0 * small[1]];
+            for axis in 0..2 {
+                let middle = pixel[axis] + 0.5;
+                // Some roundings of f32 in a hundred pixels.
+                prop_assert!((found[axis] - middle).abs() < 1e-3, "{found:?}, not {middle} on axis {axis}");
+            }
+            prop_assert_eq!(point[2], -distance);
+        }
+    }
+}
