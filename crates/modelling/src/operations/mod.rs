@@ -7,6 +7,7 @@ mod align_uvs;
 mod bevel;
 mod bisect;
 mod boolean;
+mod box_tree;
 mod bridge;
 mod catmull_clark;
 mod connect;

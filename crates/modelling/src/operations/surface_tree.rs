@@ -5,6 +5,7 @@ use std::ops::Range;
 use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::Triangulator;
 
+use super::box_tree::{BoxItem, BoxTree};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{CornerId, FaceId};
 
@@ -51,22 +52,10 @@ impl SurfaceTriangle {
     }
 }
 
-/// A box around some triangles.
-#[derive(Debug, Clone)]
-struct TreeNode {
-    bounds: Bounds3,
-    /// The triangles, in the order of the tree.
-    triangles: Range<u32>,
-    /// The second of both children; the first one follows the node. `None` for a leaf.
-    second: Option<u32>,
-}
-
 /// The triangles of the faces of a mesh, to find the nearest of their points.
 pub(super) struct SurfaceTree {
     triangles: Vec<SurfaceTriangle>,
-    /// Triangles in the order of the tree.
-    order: Vec<u32>,
-    nodes: Vec<TreeNode>,
+    boxes: BoxTree,
     faces: Vec<FaceId>,
     /// The triangles of each face.
     ranges: Vec<Range<u32>>,
@@ -92,9 +81,6 @@ impl SurfacePoint {
     }
 }
 
-/// A leaf has at most this many triangles.
-const LEAF: usize = 4;
-
 impl SurfaceTree {
     /// Of all faces of a mesh, moved by a transform. Triangles that are not finite are left out.
     pub(super) fn new(mesh: &EditMesh, transform: &DAffine3) -> Self {
@@ -105,51 +91,12 @@ impl SurfaceTree {
             let range: &mut Range<u32> = &mut ranges[triangle.face as usize];
             *range = if range.start == range.end { index..index + 1 } else { range.start..index + 1 };
         }
-        let order = (0..triangles.len() as u32).collect();
-        let mut tree = Self { triangles, order, nodes: Vec::new(), faces, ranges };
-        tree.build();
-        tree
-    }
-
-    fn build(&mut self) {
-        let count = self.order.len();
-        if count == 0 {
-            return;
-        }
-        // Ranges that are still to be divided, and which node waits for them as its second child.
-        let mut waiting = vec![(0..count, None::<usize>)];
-        while let Some((range, parent)) = waiting.pop() {
-            let node = self.nodes.len();
-            if let Some(parent) = parent {
-                self.nodes[parent].second = Some(node as u32);
-            }
-            let triangles = range.start as u32..range.end as u32;
-            self.nodes.push(TreeNode { bounds: self.bounds(range.clone()), triangles, second: None });
-            if range.len() > LEAF {
-                let middle = self.divide(range.clone());
-                waiting.push((middle..range.end, Some(node)));
-                // The first child is made next.
-                waiting.push((range.start..middle, None));
-            }
-        }
-    }
-
-    fn bounds(&self, range: Range<usize>) -> Bounds3 {
-        let points = |&triangle: &u32| self.triangles[triangle as usize].points;
-        Bounds3::from_points(self.order[range].iter().flat_map(points))
-    }
-
-    /// Sorts a part of the order by halves along the longest side of the box around the triangles' middles.
-    fn divide(&mut self, range: Range<usize>) -> usize {
-        let triangles = &self.triangles;
-        let middle = |triangle: u32| triangles[triangle as usize].middle();
-        let size = Bounds3::from_points(self.order[range.clone()].iter().map(|&i| middle(i))).size();
-        let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
-        let half = range.len() / 2;
-        self.order[range.clone()].select_nth_unstable_by(half, |&a, &b| {
-            middle(a)[axis].total_cmp(&middle(b)[axis]).then(a.cmp(&b))
-        });
-        range.start + half
+        let item = |triangle: &SurfaceTriangle| BoxItem {
+            bounds: Bounds3::from_points(triangle.points),
+            middle: triangle.middle(),
+        };
+        let items: Vec<BoxItem> = triangles.iter().map(item).collect();
+        Self { boxes: BoxTree::new(&items), triangles, faces, ranges }
     }
 
     /// The positions of all triangles, in the order of faces.
@@ -160,28 +107,14 @@ impl SurfaceTree {
     /// The nearest point of the surface; of several, that of the first face. `None` if there is no triangle, or the point
     /// is not finite.
     pub(super) fn nearest(&self, point: DVec3) -> Option<SurfacePoint> {
-        if self.nodes.is_empty() || !point.is_finite() {
+        if !point.is_finite() {
             return None;
         }
         let mut best: Option<SurfacePoint> = None;
-        let mut waiting = vec![(self.nodes[0].bounds_distance(point), 0_u32)];
-        while let Some((distance, index)) = waiting.pop() {
-            if best.is_some_and(|best| distance > best.squared) {
-                continue;
-            }
-            let node = &self.nodes[index as usize];
-            let Some(second) = node.second else {
-                let range = node.triangles.start as usize..node.triangles.end as usize;
-                for &triangle in &self.order[range] {
-                    self.improve(&mut best, triangle, point);
-                }
-                continue;
-            };
-            let children =
-                [index + 1, second].map(|child| (self.nodes[child as usize].bounds_distance(point), child));
-            let [near, far] = if children[1].0 < children[0].0 { [1, 0] } else { [0, 1] };
-            waiting.extend([children[far], children[near]]);
-        }
+        self.boxes.for_each_near(point, |triangle| {
+            self.improve(&mut best, triangle, point);
+            best.map_or(f64::INFINITY, |best| best.squared)
+        });
         best
     }
 
@@ -206,14 +139,6 @@ impl SurfaceTree {
             let face = self.faces[face as usize];
             *best = Some(SurfacePoint { face, corners, weights, position, squared, face_index });
         }
-    }
-}
-
-impl TreeNode {
-    /// The squared distance of a point from the box.
-    fn bounds_distance(&self, point: DVec3) -> f64 {
-        let outside = (self.bounds.min - point).max(point - self.bounds.max).max(DVec3::ZERO);
-        outside.length_squared()
     }
 }
 

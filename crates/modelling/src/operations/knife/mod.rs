@@ -4,6 +4,7 @@
 //! divide the face; `divide` makes them. All is known before anything is changed.
 
 mod divide;
+mod in_view;
 mod intersect;
 mod line;
 mod net;

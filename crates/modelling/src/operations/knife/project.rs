@@ -2,6 +2,7 @@
 
 use trigon_math::{Bvh, DAffine3, DVec3, Ray, Vec3, area_vector};
 
+use super::in_view::FacesInView;
 use super::{KnifeCut, KnifePoint, ProjectedLine, Sight};
 use crate::edit_mesh::EditMesh;
 use crate::ids::{EdgeId, FaceId};
@@ -22,16 +23,16 @@ pub struct KnifeProjection {
 }
 
 /// A line that is seen in a direction, from far away.
-struct ParallelLine {
-    ends: [DVec3; 2],
+pub(super) struct ParallelLine {
+    pub(super) ends: [DVec3; 2],
     direction: DVec3,
-    normal: DVec3,
-    along: DVec3,
+    pub(super) normal: DVec3,
+    pub(super) along: DVec3,
 }
 
 impl ParallelLine {
     /// `None` if the line is seen as a point.
-    fn new(ends: [DVec3; 2], direction: DVec3) -> Option<Self> {
+    pub(super) fn new(ends: [DVec3; 2], direction: DVec3) -> Option<Self> {
         let way = ends[1] - ends[0];
         let normal = direction.cross(way);
         let along = normal.cross(direction);
@@ -76,11 +77,12 @@ impl EditMesh {
             return refused("the direction is zero, or a number is not finite; give a direction");
         }
         let position = |vertex| projection.transform.transform_point3(tool.point(vertex));
+        let in_view = FacesInView::new(self, faces, direction);
         let mut strokes = Vec::new();
         for edge in tool.edges().filter(|&edge| tool.is_outline(edge, direction, position)) {
             let ends = tool.edge_vertices(edge).map(position);
             if let Some(line) = ParallelLine::new(ends, direction) {
-                strokes.extend(self.knife_through(faces, &line));
+                strokes.extend(self.knife_through(&in_view.beside(&line), &line));
             }
         }
         if !projection.cut_through {
