@@ -120,10 +120,18 @@ impl EditMesh {
         source: &TransferSource<'_>,
     ) -> Result<Vec<(CornerId, SourceParts)>, Refusal> {
         let tree = SurfaceTree::new(source.mesh, &source.transform);
+        let triangles = face_triangles(self, faces, &DAffine3::IDENTITY);
+        // A corner of several triangles of a face is moved inwards in the last one of them.
+        let mut last = vec![0; self.corner_capacity()];
+        for (index, triangle) in triangles.iter().enumerate() {
+            triangle.corners.iter().for_each(|corner| last[corner.0 as usize] = index);
+        }
         let mut matches = Vec::new();
-        for triangle in face_triangles(self, faces, &DAffine3::IDENTITY) {
+        for (index, triangle) in triangles.iter().enumerate() {
             for (&corner, &point) in triangle.corners.iter().zip(&triangle.points) {
-                // Corners of several triangles of a face are the same in each of them, but for the last one's way inwards.
+                if last[corner.0 as usize] != index {
+                    continue;
+                }
                 let inside = point.lerp(triangle.middle(), INWARDS);
                 let Some(found) = tree.nearest(inside) else {
                     let reason = "a mesh has no faces, or a position is not finite: repair it first";
