@@ -11,6 +11,7 @@
 use trigon_math::DVec2;
 
 use super::block::Block;
+use super::lists::SortedLists;
 use super::ordering::{Graph, elimination_order};
 
 /// The product of two complex numbers.
@@ -47,7 +48,8 @@ pub(super) struct MatrixPattern {
     order: Vec<u32>,
     /// By given entry: its position in the upper triangle.
     slots: Vec<EntrySlot>,
-    upper: Upper,
+    /// By column: the rows of the upper triangle.
+    upper: SortedLists,
     /// By column: the row of the first entry of the factor below its diagonal, the parent in the elimination tree.
     parents: Vec<u32>,
     /// By column: where its entries of the factor begin; one entry more.
@@ -59,19 +61,6 @@ pub(super) struct MatrixPattern {
 struct EntrySlot {
     position: u32,
     is_adjoint: bool,
-}
-
-/// An upper triangle by columns, without values.
-#[derive(Debug)]
-struct Upper {
-    starts: Vec<usize>,
-    rows: Vec<u32>,
-}
-
-impl Upper {
-    fn column(&self, column: usize) -> &[u32] {
-        &self.rows[self.starts[column]..self.starts[column + 1]]
-    }
 }
 
 /// A factor of a matrix: with it, systems are solved.
@@ -91,7 +80,7 @@ struct Lower<B> {
 
 /// Finds in which columns a row of the factor has entries.
 struct RowSearch<'p> {
-    upper: &'p Upper,
+    upper: &'p SortedLists,
     parents: &'p [u32],
     /// By column: one more than the last row that reached it.
     reached: Vec<u32>,
@@ -102,12 +91,12 @@ struct RowSearch<'p> {
 
 const NO_PARENT: u32 = u32::MAX;
 
-fn elimination_tree(upper: &Upper, size: usize) -> Vec<u32> {
+fn elimination_tree(upper: &SortedLists, size: usize) -> Vec<u32> {
     let mut parents = vec![NO_PARENT; size];
     // Shortcuts to the root that is known so far.
     let mut ancestor = vec![NO_PARENT; size];
     for column in 0..size {
-        for &row in upper.column(column) {
+        for &row in upper.list(column) {
             let mut here = row;
             while here != NO_PARENT && here < column as u32 {
                 let above = std::mem::replace(&mut ancestor[here as usize], column as u32);
@@ -122,7 +111,7 @@ fn elimination_tree(upper: &Upper, size: usize) -> Vec<u32> {
 }
 
 impl<'p> RowSearch<'p> {
-    fn new(upper: &'p Upper, parents: &'p [u32]) -> Self {
+    fn new(upper: &'p SortedLists, parents: &'p [u32]) -> Self {
         Self { upper, parents, reached: vec![0; parents.len()], columns: Vec::new(), path: Vec::new() }
     }
 
@@ -130,7 +119,7 @@ impl<'p> RowSearch<'p> {
         let mark = row as u32 + 1;
         self.columns.clear();
         self.reached[row] = mark;
-        for &column in self.upper.column(row) {
+        for &column in self.upper.list(row) {
             let mut here = column;
             while self.reached[here as usize] != mark {
                 self.reached[here as usize] = mark;
@@ -188,7 +177,7 @@ impl MatrixPattern {
 
     /// Factors the matrix with these values, in the order of the positions. Those of one position are added up.
     pub(super) fn factor<B: Block>(&self, values: &[B]) -> Result<Factor<B>, NoFactor> {
-        let mut upper = vec![B::NOTHING; self.upper.rows.len()];
+        let mut upper = vec![B::NOTHING; self.upper.total()];
         for (slot, &value) in self.slots.iter().zip(values) {
             upper[slot.position as usize] += if slot.is_adjoint { value.adjoint() } else { value };
         }
@@ -200,33 +189,22 @@ impl MatrixPattern {
     }
 }
 
-/// The triangle of a permuted matrix, and where each entry is in it.
-fn upper_triangle(size: usize, positions: &[[u32; 2]], index: &[u32]) -> (Upper, Vec<EntrySlot>) {
+/// The upper triangle of a permuted matrix, and where each entry is in it.
+fn upper_triangle(size: usize, positions: &[[u32; 2]], index: &[u32]) -> (SortedLists, Vec<EntrySlot>) {
     let permuted = |position: &[u32; 2]| position.map(|unknown| index[unknown as usize]);
-    let mut sorted: Vec<[u32; 2]> = positions
-        .iter()
-        .map(|position| {
-            let [row, column] = permuted(position);
-            [row.max(column), row.min(column)]
-        })
-        .collect();
-    sorted.sort_unstable();
-    sorted.dedup();
-    let mut starts = vec![0; size + 1];
-    sorted.iter().for_each(|&[column, _]| starts[column as usize + 1] += 1);
-    for column in 0..size {
-        starts[column + 1] += starts[column];
-    }
-    let rows: Vec<u32> = sorted.iter().map(|&[_, row]| row).collect();
+    let entries = positions.iter().map(|position| {
+        let [row, column] = permuted(position);
+        [row.max(column), row.min(column)]
+    });
+    let upper = SortedLists::new(size, entries);
     let slot = |position: &[u32; 2]| {
         let [row, column] = permuted(position);
         let (low, high) = (row.min(column), row.max(column) as usize);
-        let there = &rows[starts[high]..starts[high + 1]];
-        let offset = there.partition_point(|&other| other < low);
-        EntrySlot { position: (starts[high] + offset) as u32, is_adjoint: row > column }
+        let offset = upper.list(high).partition_point(|&other| other < low);
+        EntrySlot { position: (upper.start(high) + offset) as u32, is_adjoint: row > column }
     };
     let slots = positions.iter().map(slot).collect();
-    (Upper { starts, rows }, slots)
+    (upper, slots)
 }
 
 impl<B: Block> Factor<B> {
@@ -277,8 +255,8 @@ impl<B: Block> Lower<B> {
         let mut row_values = vec![B::NOTHING; size];
         for row in 0..size {
             search.find(row);
-            let start = pattern.upper.starts[row];
-            for (&column, &value) in pattern.upper.column(row).iter().zip(&upper[start..]) {
+            let start = pattern.upper.start(row);
+            for (&column, &value) in pattern.upper.list(row).iter().zip(&upper[start..]) {
                 row_values[column as usize] = value;
             }
             let whole = std::mem::replace(&mut row_values[row], B::NOTHING);

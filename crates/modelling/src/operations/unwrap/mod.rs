@@ -12,6 +12,7 @@ mod convex;
 mod factor;
 mod injective;
 mod islands;
+mod lists;
 mod live;
 mod mask;
 mod occupancy;

@@ -2,14 +2,15 @@
 //!
 //! All positions in a row are tested at once: each bit of a word stands for one of them.
 
-use super::mask::Mask;
+use super::mask::{CellRun, Mask};
 
 /// A square of cells, most of them blocked in the end.
 pub(super) struct Occupancy {
     side: usize,
+    /// How many words the bits of a row take.
     words: usize,
     levels: usize,
-    /// By row and level: a bit for each cell, 1 if one of 2ᶫᵉᵛᵉˡ cells from it on is blocked.
+    /// By row and level: a bit for each cell, 1 if one of 2ᶫᵉᵛᵉˡ cells from it on is blocked; then `BEYOND` words of zeros.
     blocked: Vec<u64>,
     /// By row: how many free cells lie next to one another at most.
     open: Vec<usize>,
@@ -17,6 +18,8 @@ pub(super) struct Occupancy {
     margin: f64,
     /// A bit for each position of a mask in a row: 1 if it is blocked there.
     conflicts: Vec<u64>,
+    /// The runs of a mask: first those that were blocked last, as they often are in the next row, too.
+    runs: Vec<CellRun>,
 }
 
 /// Where the lower left cell of a mask lies.
@@ -34,13 +37,21 @@ pub(super) struct LaidMask {
 }
 
 const BITS: usize = u64::BITS as usize;
+/// Bits of the last positions that are moved down come from so many words beyond the end of their row.
+const BEYOND: usize = 1;
 
 impl Occupancy {
     pub(super) fn new(side: usize, margin: f64) -> Self {
         let words = side.div_ceil(BITS);
         let levels = side.ilog2() as usize + 1;
-        let blocked = vec![0; side * levels * words];
-        Self { side, words, levels, blocked, open: vec![side; side], margin, conflicts: vec![0; words] }
+        let blocked = vec![0; side * levels * (words + BEYOND)];
+        let (open, conflicts) = (vec![side; side], vec![0; words]);
+        Self { side, words, levels, blocked, open, margin, conflicts, runs: Vec::new() }
+    }
+
+    /// Where the bits of a row begin.
+    fn start(&self, row: usize, level: usize) -> usize {
+        (row * self.levels + level) * (self.words + BEYOND)
     }
 
     /// The turn and the position in which the upper side is lowest, of those not below a row for each mask.
@@ -64,35 +75,37 @@ impl Occupancy {
         let last_x = border + free.checked_sub(mask.width)?;
         let last_y = (border + free.checked_sub(mask.height)?).min(end.checked_sub(mask.height + 1)?);
         let widest = mask.widest;
+        self.runs.clone_from(&mask.runs);
         (row.max(border)..=last_y).find_map(|y| {
             if self.open[y + widest.row] < widest.to - widest.from {
                 return None;
             }
-            let x = self.leftmost(mask, y, border, last_x)?;
+            let x = self.leftmost(y, border, last_x)?;
             Some(Cell { x, y })
         })
     }
 
-    /// The leftmost position in a row, from `first` to `last`.
-    fn leftmost(&mut self, mask: &Mask, y: usize, first: usize, last: usize) -> Option<usize> {
+    /// The leftmost position of the runs in a row, from `first` to `last`.
+    fn leftmost(&mut self, y: usize, first: usize, last: usize) -> Option<usize> {
         let last_word = last / BITS;
         self.conflicts[..=last_word].fill(0);
         let mut x = first;
-        for run in &mask.runs {
+        for at in 0..self.runs.len() {
+            let run = self.runs[at];
             let length = run.to - run.from;
             let level = length.ilog2() as usize;
-            let start = ((y + run.row) * self.levels + level) * self.words;
-            let row = &self.blocked[start..start + self.words];
+            let start = self.start(y + run.row, level);
+            let row = &self.blocked[start..start + self.words + BEYOND];
+            let first_word = x / BITS;
+            let conflicts = &mut self.conflicts[first_word..=last_word];
+            add_shifted(conflicts, &row[first_word..], run.from);
             // Two overlapping stretches of the level's length are the whole run.
-            let ends = [run.from, run.to - (1 << level)];
-            let words = x / BITS..=last_word;
-            for (word, conflicts) in words.clone().zip(&mut self.conflicts[words]) {
-                for end in ends {
-                    *conflicts |= shifted(row, word + end / BITS, end % BITS);
-                }
+            if length > 1 << level {
+                add_shifted(conflicts, &row[first_word..], run.to - (1 << level));
             }
             x = first_free(&self.conflicts, x);
             if x > last {
+                self.runs[..=at].rotate_right(1);
                 return None;
             }
         }
@@ -132,7 +145,7 @@ impl Occupancy {
     }
 
     fn block(&mut self, row: usize, from: usize, to: usize) {
-        let start = row * self.levels * self.words;
+        let start = self.start(row, 0);
         for word in from / BITS..to.div_ceil(BITS) {
             let low = from.saturating_sub(word * BITS);
             let high = (to - word * BITS).min(BITS);
@@ -142,23 +155,30 @@ impl Occupancy {
 
     /// Computes all levels of a row from the first, and how open it is.
     fn complete(&mut self, row: usize) {
-        let start = row * self.levels * self.words;
         for level in 1..self.levels {
             let by = 1 << (level - 1);
-            let (below, this) = self.blocked[start + (level - 1) * self.words..].split_at_mut(self.words);
-            for (at, word) in this[..self.words].iter_mut().enumerate() {
-                *word = below[at] | shifted(below, at + by / BITS, by % BITS);
-            }
+            let [start_below, start] = [level - 1, level].map(|level| self.start(row, level));
+            let (before, this) = self.blocked.split_at_mut(start);
+            let below = &before[start_below..];
+            let this = &mut this[..self.words];
+            this.copy_from_slice(&below[..self.words]);
+            let within = self.words.saturating_sub(by / BITS);
+            add_shifted(&mut this[..within], below, by);
         }
+        let start = self.start(row, 0);
         self.open[row] = longest_free(&self.blocked[start..start + self.words], self.side);
     }
 }
 
-/// A word of bits that are moved down by less than a word.
-fn shifted(words: &[u64], at: usize, bits: usize) -> u64 {
-    let here = words.get(at).map_or(0, |word| word >> bits);
-    let next = if bits > 0 { words.get(at + 1).map_or(0, |word| word << (BITS - bits)) } else { 0 };
-    here | next
+/// Adds bits that are moved down.
+fn add_shifted(bits: &mut [u64], words: &[u64], by: usize) {
+    let (from, shift) = (by / BITS, by % BITS);
+    let low = &words[from..from + bits.len()];
+    let high = &words[from + 1..from + 1 + bits.len()];
+    for ((bits, &low), &high) in bits.iter_mut().zip(low).zip(high) {
+        // In two steps, as a word cannot be moved by all of its bits.
+        *bits |= low >> shift | (high << 1) << (BITS - 1 - shift);
+    }
 }
 
 /// The first bit from `from` on that is 0; beyond the end if there is none.

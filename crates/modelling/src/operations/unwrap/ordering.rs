@@ -3,34 +3,26 @@
 //! breadth as separators (A. George and J. Liu, *Computer Solution of Large Sparse Positive Definite Systems*,
 //! 1981, section 8.3).
 
+use super::lists::SortedLists;
+
 /// Who is next to whom.
 pub(super) struct Graph {
-    /// By node: where its neighbours begin; one entry more.
-    starts: Vec<usize>,
-    neighbors: Vec<u32>,
+    neighbors: SortedLists,
 }
 
 impl Graph {
     /// The graph of undirected edges, each given at least once, in either direction.
-    pub(super) fn new(nodes: usize, edges: impl Iterator<Item = [u32; 2]>) -> Self {
-        let mut both: Vec<[u32; 2]> =
-            edges.filter(|[a, b]| a != b).flat_map(|[a, b]| [[a, b], [b, a]]).collect();
-        both.sort_unstable();
-        both.dedup();
-        let mut starts = vec![0; nodes + 1];
-        both.iter().for_each(|&[from, _]| starts[from as usize + 1] += 1);
-        for node in 0..nodes {
-            starts[node + 1] += starts[node];
-        }
-        Self { starts, neighbors: both.into_iter().map(|[_, to]| to).collect() }
+    pub(super) fn new(nodes: usize, edges: impl Iterator<Item = [u32; 2]> + Clone) -> Self {
+        let both = edges.filter(|[a, b]| a != b).flat_map(|[a, b]| [[a, b], [b, a]]);
+        Self { neighbors: SortedLists::new(nodes, both) }
     }
 
     pub(super) fn neighbors(&self, node: u32) -> &[u32] {
-        &self.neighbors[self.starts[node as usize]..self.starts[node as usize + 1]]
+        self.neighbors.list(node as usize)
     }
 
     fn nodes(&self) -> usize {
-        self.starts.len() - 1
+        self.neighbors.count()
     }
 }
 

@@ -91,6 +91,8 @@ pub(super) fn pack(
 const FEW: usize = 256;
 /// Squares of more sides of the least one are tried with larger cells.
 const MOST_SIDES: usize = 3;
+/// After so many squares in a row in which an order fails, it has seldom room in a smaller one.
+const MOST_FAILURES: usize = 2;
 /// How often cells are doubled, where the margin takes most of the square.
 const DOUBLINGS: u32 = 40;
 
@@ -186,9 +188,14 @@ impl MaskGrid {
         let mut best = self.least_square(least, side, most, margin)?;
         // Where one order fails in a square, it may have room in a smaller one, and so may another.
         for order in self.orders.iter().filter(|order| order.len() <= FEW) {
+            let mut failures = 0;
             for side in smaller_sides(best.side).take_while(|&side| side >= least) {
-                if let Some(slots) = self.arrange(order, side, margin) {
-                    best = Fit { side, slots };
+                match self.arrange(order, side, margin) {
+                    Some(slots) => (best, failures) = (Fit { side, slots }, 0),
+                    None => failures += 1,
+                }
+                if failures == MOST_FAILURES {
+                    break;
                 }
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Z. Jiang, S. Schaefer and D. Panozzo, *Simplicial Complex Augmentation Framework for Bijective Maps*, 2017. A disc around
 //! the chart and its holes are filled with triangles. They take part in each step with the shape that they have before
-//! it and a small weight, so that they give way. Between steps their edges are turned until they are a Delaunay
+//! it and a small weight, so that they give way. Between some of the steps their edges are turned until they are a Delaunay
 //! triangulation again (C. Lawson, *Software for C¹ Surface Interpolation*, 1977), where the paper fills the disc anew.
 
 use std::collections::BTreeMap;
@@ -16,6 +16,10 @@ use super::injective::turned_over;
 use super::stretch::{
     Model, StretchTriangle, System, energy_of, is_little, minimize_stretch, scale_to_least, step,
 };
+
+/// After so many steps the edges of the triangles around a chart are turned, or after one that gains little. As long as
+/// they are the same, the matrix has the same pattern. Turned before each step, they do not lead to less stretch.
+const STEPS_BETWEEN_TURNS: u32 = 2;
 
 /// The weight of all triangles around a chart together, in parts of the chart's energy.
 const WEIGHT: f64 = 0.01;
@@ -43,43 +47,88 @@ pub(super) fn minimize_stretch_from_circle(
     Ok(())
 }
 
+/// Steps of a chart with the triangles around it.
+struct ScaffoldSteps {
+    scaffold: Scaffold,
+    /// Those of the chart, then those around it.
+    triangles: Vec<StretchTriangle>,
+    /// How many of them are the chart's.
+    count: usize,
+    /// The chart's area.
+    area: f64,
+    /// The equations of the last step, if the triangles are still the same.
+    system: Option<System>,
+    energy: f64,
+    gain: f64,
+}
+
 fn step_with(
-    mut scaffold: Scaffold,
+    scaffold: Scaffold,
     surface: Vec<StretchTriangle>,
     layout: &mut Vec<DVec2>,
     iterations: u32,
     memory: u64,
 ) -> Result<(), NoFactor> {
-    let count = surface.len();
-    let area: f64 = surface.iter().map(|triangle| triangle.area).sum();
-    let mut triangles = surface;
-    let (mut energy, mut gain) = (energy_of(&triangles, layout), f64::INFINITY);
+    let mut steps = ScaffoldSteps::new(scaffold, surface, layout);
+    let mut age = STEPS_BETWEEN_TURNS;
     for _ in 0..iterations {
-        scaffold.renew(layout);
-        triangles.truncate(count);
-        let weight = WEIGHT * energy * area / scaffold.triangles.len() as f64;
-        let at_rest = |vertices: &[u32; 3]| StretchTriangle::at_rest(*vertices, layout, weight);
-        triangles.extend(scaffold.triangles.iter().map(at_rest));
-        let system = System::new(layout.len(), &scaffold.outermost, &triangles, memory)?;
-        let offsets = match system.offsets(&triangles, layout, Model::at(energy, gain)) {
-            Err(NoFactor::NotPositive) => break,
-            offsets => offsets?,
-        };
-        let is_allowed = |layout: &[DVec2]| triangles.iter().all(|triangle| triangle.is_right(layout));
-        let Some(step) = step(&triangles, layout, &offsets, is_allowed) else { break };
-        *layout = step.layout;
-        let next = energy_of(&triangles[..count], layout);
-        (gain, energy) = (energy - next, next);
-        if is_little(gain, energy) {
+        let is_new = age >= STEPS_BETWEEN_TURNS;
+        if is_new {
+            steps.renew(layout);
+            age = 0;
+        }
+        let gains = steps.step(layout, memory)?;
+        if is_new && !gains {
             break;
         }
+        age = if gains { age + 1 } else { STEPS_BETWEEN_TURNS };
     }
     Ok(())
+}
+
+impl ScaffoldSteps {
+    fn new(scaffold: Scaffold, surface: Vec<StretchTriangle>, layout: &[DVec2]) -> Self {
+        let area = surface.iter().map(|triangle| triangle.area).sum();
+        let (count, energy) = (surface.len(), energy_of(&surface, layout));
+        Self { scaffold, triangles: surface, count, area, system: None, energy, gain: f64::INFINITY }
+    }
+
+    fn renew(&mut self, layout: &mut [DVec2]) {
+        if self.scaffold.renew(layout) {
+            self.system = None;
+        }
+    }
+
+    /// Makes a step; whether it gains more than a little.
+    fn step(&mut self, layout: &mut Vec<DVec2>, memory: u64) -> Result<bool, NoFactor> {
+        self.triangles.truncate(self.count);
+        let weight = WEIGHT * self.energy * self.area / self.scaffold.triangles.len() as f64;
+        let at_rest = |vertices: &[u32; 3]| StretchTriangle::at_rest(*vertices, layout, weight);
+        self.triangles.extend(self.scaffold.triangles.iter().map(at_rest));
+        let triangles = &self.triangles;
+        let system = match self.system.take() {
+            Some(system) => system,
+            None => System::new(layout.len(), &self.scaffold.outermost, triangles, memory)?,
+        };
+        let offsets = match system.offsets(triangles, layout, Model::at(self.energy, self.gain)) {
+            Err(NoFactor::NotPositive) => return Ok(false),
+            offsets => offsets?,
+        };
+        self.system = Some(system);
+        let is_allowed = |layout: &[DVec2]| triangles.iter().all(|triangle| triangle.is_right(layout));
+        let Some(step) = step(triangles, layout, &offsets, is_allowed) else { return Ok(false) };
+        *layout = step.layout;
+        let next = energy_of(&triangles[..self.count], layout);
+        (self.gain, self.energy) = (self.energy - next, next);
+        Ok(!is_little(self.gain, self.energy))
+    }
 }
 
 /// Triangles around a chart.
 struct Scaffold {
     triangles: Vec<[u32; 3]>,
+    /// By the ends of a side: the triangle on its left.
+    by_side: BTreeMap<[u32; 2], u32>,
     /// The vertices of the outermost ring, in ascending order: they stay where they are.
     outermost: Vec<u32>,
     /// The first vertex that does not belong to the chart; the others follow.
@@ -95,7 +144,8 @@ impl Scaffold {
     fn around(chart: &UvChart, layout: &mut Vec<DVec2>) -> Option<Self> {
         let first = layout.len() as u32;
         let outer = longest_loop(chart);
-        let mut scaffold = Self { triangles: Vec::new(), outermost: Vec::new(), first };
+        let mut scaffold =
+            Self { triangles: Vec::new(), by_side: BTreeMap::new(), outermost: Vec::new(), first };
         for (i, border) in chart.loops.iter().enumerate() {
             // Between two edges with the same ends there is nothing to fill.
             if i != outer && border.len() > 2 {
@@ -103,6 +153,9 @@ impl Scaffold {
             }
         }
         scaffold.add_rings(&chart.loops[outer], layout);
+        for (index, triangle) in (0..).zip(&scaffold.triangles) {
+            scaffold.by_side.extend(sides(triangle).map(|side| (side, index)));
+        }
         let is_right = |triangle: &[u32; 3]| is_counter_clockwise(triangle, layout);
         scaffold.triangles.iter().all(is_right).then_some(scaffold)
     }
@@ -159,43 +212,40 @@ impl Scaffold {
     }
 
     /// Moves vertices to the middle of their neighbours where that turns no triangle over, and turns edges until no
-    /// triangle has another's vertex in its circumcircle.
-    fn renew(&mut self, layout: &mut [DVec2]) {
+    /// triangle has another's vertex in its circumcircle. Whether any edge was turned.
+    fn renew(&mut self, layout: &mut [DVec2]) -> bool {
         self.smooth(layout);
-        self.turn_edges(layout);
+        self.turn_edges(layout) > 0
     }
 
-    fn turn_edges(&mut self, layout: &[DVec2]) {
-        let mut by_side: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-        for (index, &triangle) in (0..).zip(&self.triangles) {
-            for side in sides(&triangle) {
-                by_side.insert(side, index);
-            }
-        }
-        let mut waiting: Vec<[u32; 2]> = by_side.keys().copied().filter(|[a, b]| a < b).collect();
+    /// Returns how many edges were turned.
+    fn turn_edges(&mut self, layout: &[DVec2]) -> usize {
+        let mut count = 0;
+        let mut waiting: Vec<[u32; 2]> = self.by_side.keys().copied().filter(|[a, b]| a < b).collect();
         // Rounding could turn edges without end.
-        let mut most = 20 * waiting.len();
+        let most = 20 * waiting.len();
         while let Some([a, b]) = waiting.pop() {
-            let (Some(&one), Some(&other)) = (by_side.get(&[a, b]), by_side.get(&[b, a])) else { continue };
+            let (Some(&one), Some(&other)) = (self.by_side.get(&[a, b]), self.by_side.get(&[b, a])) else {
+                continue;
+            };
             let (c, d) = (self.opposite(one, [a, b]), self.opposite(other, [a, b]));
             let turned = [[c, d, b], [d, c, a]];
-            let is_better = most > 0
+            let is_better = count < most
                 && is_in_circle([a, b, c, d].map(|vertex| layout[vertex as usize]))
                 && turned.iter().all(|triangle| is_counter_clockwise(triangle, layout));
             if !is_better {
                 continue;
             }
-            most -= 1;
-            by_side.remove(&[a, b]);
-            by_side.remove(&[b, a]);
+            count += 1;
+            self.by_side.remove(&[a, b]);
+            self.by_side.remove(&[b, a]);
             for (index, triangle) in [one, other].into_iter().zip(turned) {
                 self.triangles[index as usize] = triangle;
-                for side in sides(&triangle) {
-                    by_side.insert(side, index);
-                }
+                self.by_side.extend(sides(&triangle).map(|side| (side, index)));
             }
             waiting.extend([[b, c], [c, a], [a, d], [d, b]]);
         }
+        count
     }
 
     /// The vertex of a triangle that is not one of two.
