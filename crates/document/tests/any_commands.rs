@@ -27,8 +27,8 @@ fn resolved(value: &'static Value) -> &'static Value {
     }
 }
 
-/// Names of objects, materials and files; some are there.
-const NAMES: [&str; 7] = ["Cube", "Plane", "Cube.001", "Material", "nobody", "+Z", ""];
+/// Names of objects, materials, vertex groups and files; some are there.
+const NAMES: [&str; 8] = ["Cube", "Plane", "Cube.001", "Material", "Group", "nobody", "+Z", ""];
 
 /// Commands that leave closed meshes closed, whatever they are given: nothing is opened, removed or copied in part.
 const CLOSED_STAYS_CLOSED: [&str; 24] = [

@@ -51,6 +51,11 @@ fn mesh(random: &mut SplitMix64) -> Mesh {
     mesh
 }
 
+/// A group that limits a modifier: none, one that meshes may have, or one that none has.
+fn group(random: &mut SplitMix64) -> &'static str {
+    ["", "", "Group", "nothing"][random.below(4)]
+}
+
 fn modifier(random: &mut SplitMix64) -> Value {
     let distance = [Value::Null, json!(0.0), json!(0.01), json!(0.5)][random.below(4)].clone();
     match random.below(9) {
@@ -70,9 +75,13 @@ fn modifier(random: &mut SplitMix64) -> Value {
         }),
         4 => json!({ "kind": "weld", "distance": random.between(0.0, 0.8) }),
         5 => {
-            json!({ "kind": "solidify", "thickness": random.between(0.0, 0.5), "rim": random.below(2) == 0 })
+            let (group, invert) = (group(random), random.below(2) == 0);
+            json!({
+                "kind": "solidify", "thickness": random.between(0.0, 0.5), "rim": random.below(2) == 0,
+                "group": group, "invert_group": invert,
+            })
         }
-        6 => json!({ "kind": "decimate", "ratio": random.between(0.0, 1.0) }),
+        6 => json!({ "kind": "decimate", "ratio": random.between(0.0, 1.0), "group": group(random) }),
         7 => json!({ "kind": "screw", "steps": 3 + random.below(3), "height": random.between(-1.0, 1.0) }),
         _ => json!({ "kind": "triangulate", "least_corners": 4 + random.below(2) }),
     }
@@ -81,7 +90,7 @@ fn modifier(random: &mut SplitMix64) -> Value {
 /// A command that changes the elements or the stack; it may be refused.
 fn step(random: &mut SplitMix64) -> Value {
     let index = random.below(3);
-    match random.below(16) {
+    match random.below(19) {
         0..5 => json!({ "op": "add_modifier", "modifier": modifier(random) }),
         5 => json!({ "op": "set_modifier", "index": index, "modifier": modifier(random) }),
         6 => json!({ "op": "remove_modifier", "index": index }),
@@ -93,6 +102,12 @@ fn step(random: &mut SplitMix64) -> Value {
         12 => json!({ "op": "extrude", "distance": 0.3 }),
         13 => json!({ "op": "delete", "what": (["vertices", "edges", "faces"][random.below(3)]) }),
         14 => json!({ "op": "crease", "crease": 0.5 }),
+        15 => json!({ "op": "add_vertex_group" }),
+        16 => {
+            let falloff = json!({ "radius": random.between(0.1, 2.0), "connected": random.below(2) == 0 });
+            json!({ "op": "assign_to_vertex_group", "weight": random.between(0.0, 1.0), "falloff": falloff })
+        }
+        17 => json!({ "op": "rename_vertex_group", "name": (["Group", "other"][random.below(2)]) }),
         _ => json!({ "op": "mark_sharp" }),
     }
 }
@@ -246,13 +261,15 @@ impl Session {
                 self.select_all("face");
                 let solidify = json!({
                     "op": "solidify", "thickness": settings.thickness, "offset": settings.offset,
-                    "even": settings.even, "rim": settings.rim,
+                    "even": settings.even, "rim": settings.rim, "group": settings.group,
+                    "invert_group": settings.invert_group,
                 });
                 !has_faces || self.run(solidify)
             }
             Modifier::Decimate(settings) => {
                 self.select_all("face");
-                !has_faces || self.run(json!({ "op": "decimate", "ratio": settings.ratio }))
+                let (ratio, group) = (settings.ratio, &settings.group);
+                !has_faces || self.run(json!({ "op": "decimate", "ratio": ratio, "group": group }))
             }
             Modifier::Screw(_) | Modifier::Boolean(_) => false,
             Modifier::Triangulate(settings) => {

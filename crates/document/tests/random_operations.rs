@@ -139,6 +139,19 @@ fn operations() -> Vec<Operation> {
         operation("mark_sharp", Some("edge", 4), |_, at| json!({ "sharp": (!at.edge(EditMesh::is_sharp)) })),
         operation("mark_seam", Some("edge", 4), |_, at| json!({ "seam": (!at.edge(EditMesh::is_seam)) })),
         operation("crease", Some("edge", 4), |r, _| json!({ "crease": (signed(r) + 1.0) / 2.0 })),
+        operation("add_vertex_group", Some("vertex", 4), |r, _| json!({ "empty": r.below(4) == 0 })),
+        operation(
+            "assign_to_vertex_group",
+            Some("vertex", 3),
+            |r, _| json!({ "weight": r.between(0.0, 1.0), "falloff": { "radius": 1.5, "connected": r.below(2) == 0 } }),
+        ),
+        operation("remove_from_vertex_group", Some("vertex", 2), |_, _| json!({})),
+        operation(
+            "rename_vertex_group",
+            Some("vertex", 1),
+            |r, _| json!({ "name": r.below(1 << 20).to_string() }),
+        ),
+        operation("remove_vertex_group", Some("vertex", 1), |_, _| json!({})),
         operation("shade", Some("face", 4), |_, at| json!({ "smooth": (!at.face(EditMesh::is_smooth)) })),
         operation("assign_material", Some("face", 4), |r, _| json!({ "material": r.below(50) })),
         operation("hide", Some("face", 2), |_, _| json!({})),
@@ -379,6 +392,10 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
                 "reveal" => Some(("face", 2, "hide")),
                 "reset_vertices" => Some(("vertex", 5, "to_sphere")),
                 "un_subdivide" => Some(("face", 1, "catmull_clark")),
+                "remove_from_vertex_group" => Some(("vertex", 1000, "add_vertex_group")),
+                "assign_to_vertex_group" | "rename_vertex_group" | "remove_vertex_group" => {
+                    Some(("vertex", 1, "add_vertex_group"))
+                }
                 // A loose edge.
                 "repair" => Some(("vertex", 1, "extrude")),
                 _ => None,

@@ -110,7 +110,7 @@ impl Mesh {
 }
 
 /// What an editor knows of a [`Mesh`] besides its elements and attributes: original positions,
-/// marks of edges, hidden elements. Elements are named by the mesh's indices. Nothing is drawn of them, and
+/// marks of edges, hidden elements, vertex groups. Elements are named by the mesh's indices. Nothing is drawn of them, and
 /// files keep them with the mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EditData {
@@ -126,9 +126,22 @@ pub struct EditData {
     pub sharp_corners: Vec<u32>,
     /// Corners whose texture coordinates are pinned in any set: the corner, and one bit for each set, from the lowest.
     pub pinned_corners: Vec<[u32; 2]>,
+    /// Named sets of weighted vertices, in their order.
+    pub vertex_groups: Vec<VertexGroupData>,
     /// The stack of modifiers that the mesh is shown with, as text that `trigon-modelling` reads and writes; empty without
     /// any.
     pub modifiers: String,
+}
+
+/// A named set of weighted vertices.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct VertexGroupData {
+    /// No other group of the mesh has the same.
+    pub name: String,
+    /// The vertices in it, in increasing order.
+    pub vertices: Vec<u32>,
+    /// The weight of each of them, 0 to 1.
+    pub weights: Vec<f32>,
 }
 
 /// The marks of one edge.

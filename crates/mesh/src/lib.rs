@@ -69,7 +69,7 @@ mod welded_mesh;
 pub use attributes::{Attributes, Deltas, MorphTarget, SkinWeights};
 pub use builder::MeshBuilder;
 pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
-pub use columns::{EdgeMark, EditData, MeshColumns};
+pub use columns::{EdgeMark, EditData, MeshColumns, VertexGroupData};
 pub use deformed::Deformed;
 pub use error::MeshError;
 pub use flat_faces::FlatFaces;

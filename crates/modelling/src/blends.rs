@@ -108,6 +108,7 @@ impl Layer {
             (LayerValues::Vec4(column), _) => write(column, blends, |value, _| value),
             (LayerValues::Influences(column), _) => write(column, blends, |value, _| value),
             (LayerValues::Pins(column), _) => write(column, blends, |value, _| value),
+            (LayerValues::Weights(column), _) => write(column, blends, |value, _| value),
         }
     }
 }

@@ -1,14 +1,15 @@
 //! The data of an editable mesh that a [`Mesh`] does not have, as [`EditData`]: original positions, marks of
-//! edges, hidden elements, pins, modifiers. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
+//! edges, hidden elements, pins, vertex groups, modifiers. Together with the mesh of [`EditMesh::to_mesh`] they are complete, so a file that
 //! holds both loses nothing.
 
 use thiserror::Error;
 use trigon_math::Vec3;
-use trigon_mesh::{EdgeMark, EditData, Mesh};
+use trigon_mesh::{EdgeMark, EditData, Mesh, VertexGroupData};
 
 use super::column::Column;
 use super::edit_mesh::EditMesh;
 use super::from_mesh::LeftOut;
+use super::group_weight::GroupWeight;
 use super::ids::{CornerId, FaceId, VertexId};
 use super::layers::LayerKind;
 use super::modifier::StackedModifier;
@@ -42,6 +43,14 @@ pub enum EditDataError {
     /// There is no such corner.
     #[error("the texture coordinates of corner {0} are pinned and it does not exist")]
     NoSuchPinnedCorner(u32),
+    /// A vertex group is not as they are written; its name and the reason.
+    #[error("the vertex group {name:?} cannot be read: {reason}")]
+    VertexGroup {
+        /// The name.
+        name: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// The modifiers are not as they are written, or out of their ranges; the reason.
     #[error("the modifiers cannot be read: {0}")]
     Modifiers(String),
@@ -67,6 +76,7 @@ impl EditMesh {
             hidden_faces: hidden_faces.map(|(index, _)| index).collect(),
             sharp_corners: self.sharp_corners(map),
             pinned_corners: self.pinned_corners(map),
+            vertex_groups: self.vertex_group_data(map),
             modifiers: self.modifiers_as_text(),
         }
     }
@@ -108,6 +118,37 @@ impl EditMesh {
         }
         if !corners.is_empty() && self.corners().all(|corner| self.custom_normal(corner).is_none()) {
             self.corner_layers.retain(|layer| layer.kind != LayerKind::Normal);
+        }
+        Ok(())
+    }
+
+    fn vertex_group_data(&self, map: &ElementMap) -> Vec<VertexGroupData> {
+        let of_group = |name: &str| {
+            let group = self.vertex_group(name).expect("it is the name of one");
+            let numbered = (0u32..).zip(&map.vertices);
+            let (vertices, weights) =
+                numbered.filter_map(|(number, &vertex)| Some((number, group.weight(vertex)?))).unzip();
+            VertexGroupData { name: name.to_owned(), vertices, weights }
+        };
+        self.vertex_group_names().map(of_group).collect()
+    }
+
+    fn set_vertex_group(&mut self, group: &VertexGroupData) -> Result<(), EditDataError> {
+        let VertexGroupData { name, vertices, weights } = group;
+        let refused = |reason: String| EditDataError::VertexGroup { name: name.clone(), reason };
+        if vertices.len() != weights.len() {
+            return Err(refused(format!("it has {} weights for {} vertices", weights.len(), vertices.len())));
+        }
+        self.add_vertex_group(name).map_err(|refusal| refused(refusal.to_string()))?;
+        for (&vertex, &weight) in vertices.iter().zip(weights) {
+            self.check_vertex(VertexId(vertex)).map_err(|refusal| refused(refusal.to_string()))?;
+            if !(0.0..=1.0).contains(&weight) {
+                return Err(refused(format!("a weight is {weight}, but must be 0 to 1")));
+            }
+        }
+        let column = self.group_weights_mut(name).expect("it was added");
+        for (&vertex, &weight) in vertices.iter().zip(weights) {
+            *column.write(vertex) = GroupWeight::new(Some(weight));
         }
         Ok(())
     }
@@ -183,6 +224,7 @@ impl EditMesh {
         }
         editable.clear_sharp_corners(&data.sharp_corners)?;
         editable.set_pinned_corners(&data.pinned_corners)?;
+        data.vertex_groups.iter().try_for_each(|group| editable.set_vertex_group(group))?;
         editable.modifiers = modifiers_of_text(&data.modifiers)?;
         // Faces and corners were named by their numbers until here.
         left_out.cut_faces = editable.make_all_simple();
@@ -234,6 +276,7 @@ mod tests {
     use trigon_mesh::primitives;
 
     use super::*;
+    use crate::GroupAssignment;
     use crate::ids::EdgeId;
     use crate::tests::meshes;
 
@@ -253,6 +296,8 @@ mod tests {
     /// Marks elements by their indices and a number.
     fn marked(mesh: &Mesh, seed: u32) -> EditMesh {
         let (mut mesh, _) = EditMesh::from_mesh(mesh);
+        mesh.add_vertex_group("empty").expect("room");
+        mesh.add_vertex_group("one").expect("room");
         let is_chosen = |index: u32, kind: u32| (index ^ seed).wrapping_mul(2_654_435_769) >> 28 == kind;
         for edge in mesh.edges().collect::<Vec<_>>() {
             mesh.set_sharp(edge, is_chosen(edge.0, 0));
@@ -262,6 +307,11 @@ mod tests {
         }
         for vertex in mesh.vertices().collect::<Vec<_>>() {
             mesh.set_vertex_hidden(vertex, is_chosen(vertex.0, 4));
+            if is_chosen(vertex.0, 8) {
+                let weight =
+                    GroupAssignment { weight: f64::from(seed) / f64::from(u32::MAX), ..Default::default() };
+                mesh.assign_to_vertex_group("one", &[vertex], &weight).expect("there is one");
+            }
             if is_chosen(vertex.0, 5) {
                 mesh.set_position(vertex, Vec3::splat(seed as f32));
             }
@@ -315,6 +365,18 @@ mod tests {
         let surface = |levels: u32| {
             format!(r#"[{{"modifier":{{"kind":"subdivision","levels":{levels}}},"is_on":true}}]"#)
         };
+        let group = |name: &str, vertices: Vec<u32>, weights: Vec<f32>| EditData {
+            vertex_groups: vec![VertexGroupData { name: name.to_owned(), vertices, weights }],
+            ..EditData::default()
+        };
+        refused(group("one", vec![8], vec![1.0]));
+        refused(group("one", vec![0, 1], vec![1.0]));
+        refused(group("one", vec![0], vec![1.5]));
+        refused(group("one", vec![0], vec![f32::NAN]));
+        refused(group("", vec![0], vec![1.0]));
+        let twice = [group("one", vec![0], vec![1.0]), group("one", vec![1], vec![1.0])];
+        let twice = twice.into_iter().flat_map(|data| data.vertex_groups).collect();
+        refused(EditData { vertex_groups: twice, ..EditData::default() });
         refused(EditData { modifiers: surface(6), ..EditData::default() });
         refused(EditData { modifiers: "[{}]".to_owned(), ..EditData::default() });
         refused(EditData { first_positions: vec![Vec3::ZERO; 7], ..EditData::default() });

@@ -6,6 +6,7 @@
 use trigon_math::{DVec3, Vec3};
 
 use super::column::Column;
+use super::group_weight::GroupName;
 use super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use super::layers::Layer;
 use super::modifier::StackedModifier;
@@ -53,6 +54,8 @@ pub struct EditMesh {
     pub(super) vertex_layers: Vec<Layer>,
     pub(super) corner_layers: Vec<Layer>,
     pub(super) slots: AllSlots,
+    /// The vertex groups; their weights are layers.
+    pub(super) groups: Vec<GroupName>,
     /// What is shown and exported is the mesh after these.
     pub(super) modifiers: Vec<StackedModifier>,
     /// Whether a transaction is active.
@@ -90,6 +93,7 @@ impl EditMesh {
             vertex_layers: Vec::new(),
             corner_layers: Vec::new(),
             slots: AllSlots::default(),
+            groups: Vec::new(),
             modifiers: Vec::new(),
             is_recording: false,
             memory: Self::MEMORY,

@@ -13,7 +13,7 @@ use super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use super::layers::{Layer, LayerDifference, LayerKind, LayerValues};
 use super::records::{EdgeRecord, FaceRecord, HIDDEN, SEAM, VertexRecord};
 use super::to_mesh::ElementMap;
-use super::transaction::Difference;
+use super::transaction::{Difference, LayersDifference};
 
 /// For each edited element its number in the displayed mesh: the inverse of an [`ElementMap`].
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -145,7 +145,7 @@ impl EditMesh {
             changed.vertices.extend(moved.into_iter().map(VertexId));
         }
         let [of_vertices, of_corners] = [&difference.vertex_layers, &difference.corner_layers];
-        if !of_vertices.is_empty()
+        if !self.only_weights_differ(of_vertices)
             || !of_corners.added.is_empty()
             || of_corners.common.len() != self.corner_layers.len()
         {
@@ -157,6 +157,16 @@ impl EditMesh {
         sort(&mut changed.vertices);
         sort(&mut changed.corners);
         Some(changed)
+    }
+
+    /// Whether two states differ in no layer of vertices but those of vertex groups, which a displayed mesh has not.
+    fn only_weights_differ(&self, difference: &LayersDifference) -> bool {
+        let is_group = |layer: &Layer| matches!(layer.kind, LayerKind::Group(_));
+        let common = self.vertex_layers.iter().zip(&difference.common);
+        let mut others = common.filter(|(layer, _)| !is_group(layer));
+        let is_same = others.all(|(_, difference)| matches!(difference, LayerDifference::Unchanged));
+        let mut added = self.vertex_layers.iter().skip(difference.common.len()).chain(&difference.added);
+        is_same && added.all(is_group)
     }
 
     /// Whether both states have the same elements with the same adjacency, and the same of those

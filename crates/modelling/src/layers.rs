@@ -1,9 +1,10 @@
 //! The values of vertices and corners besides positions: texture coordinates and their pins, colours, normals,
-//! skin weights, morph targets.
+//! skin weights, weights in groups, morph targets.
 
 use trigon_math::{DVec2, DVec3, DVec4, Vec2, Vec3, Vec4};
 
 use super::column::{Column, ColumnDifference};
+use super::group_weight::GroupWeight;
 use super::skin::Influences;
 
 /// What the values of a layer are.
@@ -28,6 +29,8 @@ pub(super) enum LayerKind {
     MorphTangent(u16),
     /// Joints and their weights. On vertices.
     Skin,
+    /// Weights in a vertex group. On vertices, numbered; of a number without a name in the mesh there are none.
+    Group(u16),
 }
 
 /// One value for each vertex or each corner.
@@ -44,6 +47,7 @@ pub(super) enum LayerValues {
     Vec4(Column<Vec4>),
     Influences(Column<Influences>),
     Pins(Column<Pins>),
+    Weights(Column<GroupWeight>),
 }
 
 /// The sets of texture coordinates in which a corner is pinned: one bit for each, from the lowest.
@@ -58,6 +62,7 @@ pub(super) enum LayerDifference {
     Vec4(ColumnDifference<Vec4>),
     Influences(ColumnDifference<Influences>),
     Pins(ColumnDifference<Pins>),
+    Weights(ColumnDifference<GroupWeight>),
 }
 
 /// Runs the same expression for the column of any type.
@@ -69,6 +74,7 @@ macro_rules! for_column {
             LayerValues::Vec4($column) => $body,
             LayerValues::Influences($column) => $body,
             LayerValues::Pins($column) => $body,
+            LayerValues::Weights($column) => $body,
         }
     };
 }
@@ -97,6 +103,12 @@ impl Blend for Vec4 {
 }
 
 impl Blend for Influences {
+    fn blend(parts: &[(Self, f64)]) -> Self {
+        Self::blended(parts)
+    }
+}
+
+impl Blend for GroupWeight {
     fn blend(parts: &[(Self, f64)]) -> Self {
         Self::blended(parts)
     }
@@ -191,6 +203,7 @@ impl Layer {
             LayerValues::Vec4(column) => blend_column(column, parts, to),
             LayerValues::Influences(column) => blend_column(column, parts, to),
             LayerValues::Pins(column) => blend_column(column, parts, to),
+            LayerValues::Weights(column) => blend_column(column, parts, to),
         }
     }
 
@@ -220,6 +233,7 @@ impl Layer {
             LayerValues::Vec4(column) => column.finish().map(LayerDifference::Vec4),
             LayerValues::Influences(column) => column.finish().map(LayerDifference::Influences),
             LayerValues::Pins(column) => column.finish().map(LayerDifference::Pins),
+            LayerValues::Weights(column) => column.finish().map(LayerDifference::Weights),
         }
         .unwrap_or(LayerDifference::Unchanged)
     }
@@ -234,6 +248,7 @@ impl Layer {
                 column.swap(difference);
             }
             (LayerValues::Pins(column), LayerDifference::Pins(difference)) => column.swap(difference),
+            (LayerValues::Weights(column), LayerDifference::Weights(difference)) => column.swap(difference),
             _ => unreachable!("a difference is applied to the layer that it came from"),
         }
     }
@@ -306,6 +321,7 @@ impl LayerDifference {
             Self::Vec4(difference) => difference.bytes(),
             Self::Influences(difference) => difference.bytes(),
             Self::Pins(difference) => difference.bytes(),
+            Self::Weights(difference) => difference.bytes(),
         }
     }
 }

@@ -21,6 +21,7 @@ mod edit_mesh;
 mod euler;
 mod follow;
 mod from_mesh;
+mod group_weight;
 mod ids;
 mod inspect;
 mod layers;
@@ -41,6 +42,7 @@ mod to_mesh;
 mod transaction;
 mod validate;
 mod values;
+mod vertex_groups;
 mod walk;
 
 pub use edit_data::EditDataError;
@@ -64,6 +66,7 @@ pub use refusal::{Refusal, SolidFault};
 pub use stack::{Evaluation, ModifierObjects, ModifierState, NoObjects, ObjectState};
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
+pub use vertex_groups::VertexGroup;
 
 /// Re-export of the crate below, so that programs need no other dependency.
 pub use trigon_mesh as mesh;

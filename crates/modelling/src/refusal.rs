@@ -21,6 +21,12 @@ pub enum Refusal {
     /// There is no such face (any more).
     #[error("there is no {0}: it was removed, or never made")]
     NoSuchFace(FaceId),
+    /// There is no vertex group of this name.
+    #[error("there is no vertex group \"{0}\" in the mesh: add it first, or choose another")]
+    NoSuchGroup(String),
+    /// There is a vertex group of this name already.
+    #[error("there is a vertex group \"{0}\" already: choose another name")]
+    GroupExists(String),
     /// The operation needs elements, and none were given.
     #[error("{operation} needs {needed}: select them first")]
     NothingGiven {

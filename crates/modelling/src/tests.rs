@@ -44,6 +44,21 @@ pub(super) fn keeps_affine_values(mesh: &EditMesh) -> Result<(), String> {
     Ok(())
 }
 
+/// The weight that belongs to a position up to 4 m from the origin along each axis.
+pub(super) fn affine_weight(position: Vec3) -> f64 {
+    0.5 + 0.0625 * f64::from(position.x) - 0.03125 * f64::from(position.y) + 0.015625 * f64::from(position.z)
+}
+
+/// Adds a vertex group with weights that are affine in position, within 0 to 1.
+pub(super) fn add_affine_group(mesh: &mut EditMesh, name: &str) {
+    mesh.add_vertex_group(name).expect("room");
+    for vertex in mesh.vertices().collect::<Vec<_>>() {
+        let weight = affine_weight(mesh.position(vertex)).clamp(0.0, 1.0);
+        let assignment = GroupAssignment { weight, ..GroupAssignment::default() };
+        mesh.assign_to_vertex_group(name, &[vertex], &assignment).expect("it exists");
+    }
+}
+
 /// Polygons over random vertices: anything may touch anything.
 fn soup() -> impl Strategy<Value = Mesh> {
     let vertices = prop::collection::vec(prop::array::uniform3(-4i8..4), 4..20);

@@ -39,7 +39,7 @@ impl ElementMap {
 
 impl EditMesh {
     /// The mesh without free slots, elements in the order of their indices, and which
-    /// element each was. First positions, creases, seams and what is hidden have no place in it;
+    /// element each was. First positions, creases, seams, vertex groups and what is hidden have no place in it;
     /// sharp edges between smooth faces show in the normals of the corners there.
     #[must_use]
     pub fn to_mesh(&self) -> (Mesh, ElementMap) {
@@ -159,7 +159,7 @@ impl EditMesh {
                     morph_target(&mut attributes, number).tangents = values;
                 }
                 (LayerValues::Vec3(column), _) => attributes.corner_normals = Some(of_corners(map, column)),
-                (LayerValues::Influences(_) | LayerValues::Pins(_), _) => {}
+                (LayerValues::Influences(_) | LayerValues::Pins(_) | LayerValues::Weights(_), _) => {}
             }
         }
         attributes

@@ -7,6 +7,7 @@ use trigon_math::Vec3;
 
 use super::column::ColumnDifference;
 use super::edit_mesh::{AllSlots, EditMesh};
+use super::group_weight::GroupName;
 use super::ids::VertexId;
 use super::layers::{Layer, LayerDifference};
 use super::modifier::StackedModifier;
@@ -32,6 +33,8 @@ pub struct Difference {
     pub(super) slots: AllSlots,
     /// The modifiers of the other state, if they differ.
     modifiers: Option<Vec<StackedModifier>>,
+    /// The vertex groups of the other state, if their names differ.
+    groups: Option<Vec<GroupName>>,
 }
 
 /// Of the layers of one kind of element. A change may add layers after the others.
@@ -128,6 +131,7 @@ impl EditMesh {
 struct Recording {
     slots: AllSlots,
     modifiers: Vec<StackedModifier>,
+    groups: Vec<GroupName>,
     vertex_layers: usize,
     corner_layers: usize,
 }
@@ -144,7 +148,8 @@ impl Recording {
         mesh.vertex_layers.iter_mut().for_each(Layer::begin);
         mesh.corner_layers.iter_mut().for_each(Layer::begin);
         let (vertex_layers, corner_layers) = (mesh.vertex_layers.len(), mesh.corner_layers.len());
-        Self { slots: mesh.slots, modifiers: mesh.modifiers.clone(), vertex_layers, corner_layers }
+        let (modifiers, groups) = (mesh.modifiers.clone(), mesh.groups.clone());
+        Self { slots: mesh.slots, modifiers, groups, vertex_layers, corner_layers }
     }
 
     fn finish(self, mesh: &mut EditMesh) -> Difference {
@@ -165,6 +170,7 @@ impl Recording {
             corner_layers: layers(&mut mesh.corner_layers, self.corner_layers),
             slots: self.slots,
             modifiers: (self.modifiers != mesh.modifiers).then_some(self.modifiers),
+            groups: (self.groups != mesh.groups).then_some(self.groups),
         }
     }
 }
@@ -192,6 +198,7 @@ impl Difference {
             corner_layers: none(),
             slots,
             modifiers: None,
+            groups: None,
         }
     }
 
@@ -222,6 +229,9 @@ impl Difference {
         if let Some(modifiers) = &mut self.modifiers {
             std::mem::swap(&mut mesh.modifiers, modifiers);
         }
+        if let Some(groups) = &mut self.groups {
+            std::mem::swap(&mut mesh.groups, groups);
+        }
     }
 
     /// Whether both states are the same.
@@ -240,6 +250,7 @@ impl Difference {
             && self.edges.is_none()
             && self.corners.is_none()
             && self.faces.is_none()
+            && self.groups.is_none()
             && [&self.vertex_layers, &self.corner_layers].iter().all(|layers| layers.is_empty());
         !is_same
     }
@@ -265,6 +276,7 @@ impl Difference {
             + self.vertex_layers.bytes()
             + self.corner_layers.bytes()
             + self.modifiers.as_ref().map_or(0, |stack| size_of_val(stack.as_slice()))
+            + self.groups.as_ref().map_or(0, |groups| size_of_val(groups.as_slice()))
     }
 }
 

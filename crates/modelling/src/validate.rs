@@ -1,7 +1,9 @@
 //! Checks whether a mesh satisfies the rules of its structure, for tests and for debugging.
 
 use super::edit_mesh::EditMesh;
+use super::group_weight::GroupWeight;
 use super::ids::{EdgeId, FaceId, NONE, VertexId};
+use super::layers::{LayerKind, LayerValues};
 use super::records::{ALIVE, Slots};
 
 impl EditMesh {
@@ -168,6 +170,31 @@ impl EditMesh {
         }
         if self.corner_layers.iter().any(|layer| layer.len() != self.corners.len()) {
             return Err("a layer has not one value for each corner".into());
+        }
+        self.check_groups()
+    }
+
+    /// Each group has a name and a layer of its own, and weights are in their range.
+    fn check_groups(&self) -> Result<(), String> {
+        for (number, group) in self.groups.iter().enumerate() {
+            let others = &self.groups[..number];
+            if others.iter().any(|other| other.name == group.name || other.layer == group.layer) {
+                return Err("two vertex groups have the same name or layer".into());
+            }
+            let kind = LayerKind::Group(group.layer);
+            if self.vertex_layers.iter().filter(|layer| layer.kind == kind).count() != 1 {
+                return Err("a vertex group has no layer".into());
+            }
+        }
+        for layer in &self.vertex_layers {
+            let (LayerValues::Weights(column), LayerKind::Group(number)) = (&layer.values, layer.kind) else {
+                continue;
+            };
+            let is_named = self.groups.iter().any(|group| group.layer == number);
+            let is_right = |weight: GroupWeight| weight.is_valid() && (is_named || weight.get().is_none());
+            if !self.vertices().all(|vertex| is_right(column[vertex.0])) {
+                return Err("a weight in a vertex group is out of its range".into());
+            }
         }
         Ok(())
     }

@@ -43,6 +43,7 @@ mod transfer_uvs;
 mod transform;
 mod translate;
 mod unwrap;
+mod vertex_group;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -109,6 +110,10 @@ pub use trigon_modelling::{
     UnwrapMethod, UvAlignment, WeldModifier,
 };
 pub use unwrap::{PackIslands, SmartProject, Unwrap};
+pub use vertex_group::{
+    AddVertexGroup, AssignToVertexGroup, RemoveFromVertexGroup, RemoveVertexGroup, RenameVertexGroup,
+    SelectVertexGroup,
+};
 
 /// Lists all commands: variant, type, display name.
 macro_rules! commands {
@@ -202,6 +207,8 @@ commands! {
     SelectByMaterial("Select by Material", true),
     /// Selects elements with the same property as the selection.
     SelectSimilar("Select Similar", true),
+    /// Selects the vertices of a vertex group.
+    SelectVertexGroup("Select Vertex Group", true),
     /// Selects by position.
     SelectWithin("Select Within", true),
     /// Deletes selected elements of meshes.
@@ -316,6 +323,16 @@ commands! {
     MarkSeam("Mark Seam", false),
     /// Sets the crease of edges.
     Crease("Crease", false),
+    /// Adds a named set of weighted vertices.
+    AddVertexGroup("Add Vertex Group", false),
+    /// Removes a vertex group.
+    RemoveVertexGroup("Remove Vertex Group", false),
+    /// Gives a vertex group another name.
+    RenameVertexGroup("Rename Vertex Group", false),
+    /// Gives vertices a weight in a group.
+    AssignToVertexGroup("Assign to Vertex Group", false),
+    /// Takes vertices out of a group.
+    RemoveFromVertexGroup("Remove from Vertex Group", false),
     /// Shades faces smoothly or flat.
     Shade("Shade Smooth/Flat", false),
     /// Assigns a material slot to faces.

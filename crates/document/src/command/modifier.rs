@@ -14,12 +14,16 @@ use crate::state::Change;
 
 const STACK: &str = "a modifier";
 
-/// The mesh of an object by name, or of the active one.
-fn mesh_of(change: &Change<'_>, name: Option<&ObjectName>) -> Result<MeshId, EditError> {
-    let object = named_or_active(change, name, STACK)?;
+/// The mesh of an object by name, or of the active one, for something that it gets.
+pub(super) fn mesh_of(
+    change: &Change<'_>,
+    name: Option<&ObjectName>,
+    operation: &'static str,
+) -> Result<MeshId, EditError> {
+    let object = named_or_active(change, name, operation)?;
     let mesh = change.scene().node(object).and_then(|node| node.mesh);
     let reason = "the object has no mesh: select one that has";
-    mesh.ok_or_else(|| Refusal::NotPossible { operation: STACK, reason }.into())
+    mesh.ok_or_else(|| Refusal::NotPossible { operation, reason }.into())
 }
 
 /// Changes the stack of a mesh, and reports what a view shows.
@@ -28,7 +32,7 @@ fn restack(
     object: Option<&ObjectName>,
     with: impl FnOnce(&mut EditMesh) -> Result<(), Refusal>,
 ) -> Result<Outcome, EditError> {
-    let id = mesh_of(change, object)?;
+    let id = mesh_of(change, object, STACK)?;
     change.edit(id, |mesh| Ok(with(mesh)?))?;
     let states: Vec<ModifierState> =
         change.evaluate(id).map_or_else(Vec::new, |all| all.states().cloned().collect());
@@ -154,7 +158,7 @@ pub struct ApplyModifier {
 
 impl Action for ApplyModifier {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let id = mesh_of(change, self.object.as_ref())?;
+        let id = mesh_of(change, self.object.as_ref(), STACK)?;
         let (faces, warning) = apply(change, id, self.index as usize)?;
         let mut outcome = Outcome::counted("made", faces, ["face", "faces"]);
         outcome.warnings.extend(warning);

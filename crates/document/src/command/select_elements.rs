@@ -63,22 +63,23 @@ impl Action for SelectElements {
         }
         for (mesh, bits) in found {
             let own = selection.of_mut(mesh).expect("it was found among those that are edited");
-            own.set(self.joined(own.bits(), &bits));
+            own.set(self.action.joined(own.bits(), &bits));
         }
         Ok(Outcome::silent())
     }
 }
 
-impl SelectElements {
-    /// The selection afterwards. [`SelectAction::Replace`] starts from an empty one.
-    fn joined(&self, before: &FixedBitSet, named: &FixedBitSet) -> FixedBitSet {
+impl SelectAction {
+    /// The selection of a mesh afterwards.
+    pub(super) fn joined(self, before: &FixedBitSet, named: &FixedBitSet) -> FixedBitSet {
         let mut after = before.clone();
         after.grow(named.len());
-        match self.action {
-            SelectAction::Replace | SelectAction::Add => after.union_with(named),
-            SelectAction::Remove => after.difference_with(named),
-            SelectAction::Toggle => after.symmetric_difference_with(named),
-            SelectAction::Intersect => after.intersect_with(named),
+        match self {
+            Self::Replace => after.clone_from(named),
+            Self::Add => after.union_with(named),
+            Self::Remove => after.difference_with(named),
+            Self::Toggle => after.symmetric_difference_with(named),
+            Self::Intersect => after.intersect_with(named),
         }
         after
     }

@@ -7,7 +7,7 @@ use thiserror::Error;
 use trigon_io::{Export, ExportOptions, Format, Location, NativeDocument, Warning, WriteError};
 use trigon_mesh::{EditData, Mesh};
 use trigon_modelling::{EditMesh, Refusal};
-use trigon_scene::{MeshAsset, MeshId};
+use trigon_scene::{MeshAsset, MeshId, NodeId};
 
 use crate::objects::SceneObjects;
 
@@ -117,7 +117,23 @@ impl DocumentFile {
                 native.scene.replace_mesh(id, mesh);
             }
         }
-        Ok(native.export(name, format, options)?)
+        let mut export = native.export(name, format, options)?;
+        for asset in self.exported_with_groups(options) {
+            export.add_loss(Location::Named(format!("mesh \"{}\"", asset.name)), "vertex groups");
+        }
+        Ok(export)
+    }
+
+    /// The meshes of an export that have vertex groups, which no format holds.
+    fn exported_with_groups(&self, options: &ExportOptions<'_>) -> Vec<&MeshAsset> {
+        let is_chosen = |id: NodeId| options.nodes.as_ref().is_none_or(|nodes| nodes.contains(&id));
+        let nodes = self.native.scene.nodes().iter().filter(|(id, _)| is_chosen(*id));
+        let exported: BTreeSet<MeshId> = nodes.filter_map(|(_, node)| node.mesh).collect();
+        let with_groups = self
+            .edited
+            .iter()
+            .filter(|(id, mesh)| exported.contains(id) && mesh.vertex_group_names().len() > 0);
+        with_groups.filter_map(|(&id, _)| self.native.scene.meshes().get(id)).collect()
     }
 }
 

@@ -3,7 +3,9 @@
 use trigon_io::{LoadOptions, encode_glb, load_from_slice};
 use trigon_mesh::math::Vec3;
 use trigon_mesh::{SkinWeights, primitives};
-use trigon_modelling::{EdgeId, FaceId, Modifier, NoObjects, StackedModifier, SubdivisionModifier, VertexId};
+use trigon_modelling::{
+    EdgeId, FaceId, GroupAssignment, Modifier, NoObjects, StackedModifier, SubdivisionModifier, VertexId,
+};
 use trigon_scene::{Material, Scene};
 
 use super::*;
@@ -45,12 +47,36 @@ fn an_edited_mesh_comes_back_with_everything_that_was_marked() {
     mesh.set_edge_hidden(EdgeId::new(4), true);
     mesh.set_vertex_hidden(VertexId::new(5), true);
     mesh.set_face_hidden(FaceId::new(2), true);
+    mesh.add_vertex_group("none").expect("room");
+    mesh.add_vertex_group("some").expect("room");
+    let assignment = GroupAssignment { weight: 0.1, ..GroupAssignment::default() };
+    mesh.assign_to_vertex_group("some", &[VertexId::new(1), VertexId::new(7)], &assignment)
+        .expect("they exist");
     first.edited.insert(id, mesh.clone());
     let bytes = saved(&first.to_native());
     let (second, warnings) = opened(&bytes);
     assert_eq!(warnings, [], "nothing to warn of");
     assert!(*edited(&second) == mesh, "also where the vertex was before");
     assert!(saved(&second.to_native()) == bytes, "and the second file is the first");
+}
+
+#[test]
+fn vertex_groups_are_not_exported_and_reported() {
+    let (mut first, id) = document(primitives::cube(2.0));
+    let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    let losses = |file: &DocumentFile| {
+        let written = file.export("cube.glb", Format::Glb, &ExportOptions::default()).expect("it is small");
+        written.what_would_be_lost().iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    first.edited.insert(id, cube.clone());
+    let before = losses(&first);
+    cube.add_vertex_group("some").expect("room");
+    first.edited.insert(id, cube);
+    let new: Vec<String> = losses(&first).into_iter().filter(|loss| !before.contains(loss)).collect();
+    assert_eq!(new, ["mesh \"shape\": vertex groups"]);
+    let nothing = ExportOptions { nodes: Some(Vec::new()), ..ExportOptions::default() };
+    let written = first.export("cube.glb", Format::Glb, &nothing).expect("it is small");
+    assert!(!written.what_would_be_lost().iter().any(|loss| loss.what == "vertex groups"), "not exported");
 }
 
 fn surface(levels: u32) -> StackedModifier {

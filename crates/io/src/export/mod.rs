@@ -130,6 +130,11 @@ impl Export {
         &self.losses
     }
 
+    /// Adds what a caller knows that the scene had not, and so the files have not.
+    pub fn add_loss(&mut self, location: Location, what: impl Into<String>) {
+        self.losses.push(Loss { location, what: what.into() });
+    }
+
     /// Writes the files into a folder, each atomically.
     ///
     /// # Errors

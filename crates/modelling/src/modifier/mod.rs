@@ -139,6 +139,24 @@ impl Modifier {
     }
 }
 
+impl Modifier {
+    /// Its limit to a vertex group, if it can have one.
+    fn group_limit(&mut self) -> Option<&mut String> {
+        match self {
+            Self::Solidify(SolidifySettings { group, .. })
+            | Self::Decimate(DecimateSettings { group, .. }) => Some(group),
+            _ => None,
+        }
+    }
+
+    /// Uses a vertex group by its new name.
+    pub(crate) fn rename_group(&mut self, before: &str, name: &str) {
+        if let Some(group) = self.group_limit().filter(|group| *group == before) {
+            name.clone_into(group);
+        }
+    }
+}
+
 /// Refuses a number out of its range, or not finite.
 fn check_range(
     parameter: &'static str,

@@ -129,7 +129,7 @@ pub enum DecimateGoal {
 
 /// Cuts faces into triangles and reduces their number, with as little change of the surface as possible. Borders, seams,
 /// sharp edges and the borders of materials hold.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DecimateSettings {
     /// When to end; the other goals' values are not used.
@@ -146,6 +146,11 @@ pub struct DecimateSettings {
     /// Whether borders of texture coordinates and colours hold. Without it corners keep their values where their vertices
     /// move.
     pub hold_values: bool,
+    /// The vertex group that limits it; empty for none. An error at an edge counts as divided by the least weight
+    /// of its two vertices, so that edges with a small one go last; at weight 0 nothing goes.
+    pub group: String,
+    /// Whether it acts where the group does not: with 1 minus the weight.
+    pub invert_group: bool,
 }
 
 impl DecimateSettings {
@@ -158,6 +163,14 @@ impl DecimateSettings {
 impl Default for DecimateSettings {
     /// Half of the triangles.
     fn default() -> Self {
-        Self { goal: DecimateGoal::default(), ratio: 0.5, faces: 1000, error: 0.001, hold_values: true }
+        Self {
+            goal: DecimateGoal::default(),
+            ratio: 0.5,
+            faces: 1000,
+            error: 0.001,
+            hold_values: true,
+            group: String::new(),
+            invert_group: false,
+        }
     }
 }

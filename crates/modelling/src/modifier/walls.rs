@@ -7,7 +7,7 @@ use super::{check_distance, check_finite, check_range};
 use crate::refusal::Refusal;
 
 /// Gives faces a second layer behind them, joined along borders, so that a surface becomes a wall.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SolidifySettings {
     /// The distance between both layers, in metres.
@@ -25,6 +25,10 @@ pub struct SolidifySettings {
     pub rim_material: Option<u32>,
     /// The material slot of the second layer. Default: those of the faces in front of it.
     pub inner_material: Option<u32>,
+    /// The vertex group that limits it; empty for none. The thickness at a vertex is times its weight.
+    pub group: String,
+    /// Whether it acts where the group does not: with 1 minus the weight.
+    pub invert_group: bool,
 }
 
 impl SolidifySettings {
@@ -44,6 +48,8 @@ impl Default for SolidifySettings {
             rim: true,
             rim_material: None,
             inner_material: None,
+            group: String::new(),
+            invert_group: false,
         }
     }
 }

@@ -4,8 +4,9 @@
 use super::tables::{IndexSet, IndexTable};
 use crate::column::Column;
 use crate::edit_mesh::EditMesh;
+use crate::group_weight::GroupLayers;
 use crate::ids::{CornerId, EdgeId, FaceId, VertexId};
-use crate::layers::{Layer, LayerValues};
+use crate::layers::{Layer, LayerKind, LayerValues};
 
 /// Copies of elements, in the order of the originals' ids.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -72,6 +73,7 @@ impl EditMesh {
         let mut part = Self {
             vertex_layers: layers(&self.vertex_layers),
             corner_layers: layers(&self.corner_layers),
+            groups: self.groups.clone(),
             ..Self::new()
         };
         let all = |count: usize| (0..count).map(Some).collect::<Vec<_>>();
@@ -84,13 +86,15 @@ impl EditMesh {
     }
 
     /// Adds another mesh as a whole. Layers that either lacks are added: with zeros, or white for
-    /// colours, which is how a mesh without colours is displayed.
+    /// colours, which is how a mesh without colours is displayed. Vertex groups of the same name become one; the caller has
+    /// checked how many there will be.
     pub(super) fn append(&mut self, other: &Self) -> CopiedElements {
         let vertices = self.vertices.len();
         let corners = self.corners.len();
+        let groups = self.unite_groups(other);
         let pairs = LayerPairs {
-            of_vertices: unite_layers(&mut self.vertex_layers, &other.vertex_layers, vertices),
-            of_corners: unite_layers(&mut self.corner_layers, &other.corner_layers, corners),
+            of_vertices: unite_layers(&mut self.vertex_layers, &other.vertex_layers, vertices, &groups),
+            of_corners: unite_layers(&mut self.corner_layers, &other.corner_layers, corners, &[]),
         };
         self.add_copies(other, &Elements::all(other), &pairs)
     }
@@ -180,12 +184,25 @@ fn copy_values(to: &mut [Layer], from: &[Layer], pairs: &[Option<usize>], [sourc
 }
 
 /// Adds the missing layers of another mesh, with this length. Returns which of the other's layers
-/// corresponds to each own one.
-fn unite_layers(own: &mut Vec<Layer>, other: &[Layer], length: u32) -> Vec<Option<usize>> {
+/// corresponds to each own one. Of each vertex group of the other the numbers of both layers are given; both exist.
+fn unite_layers(
+    own: &mut Vec<Layer>,
+    other: &[Layer],
+    length: u32,
+    groups: &[GroupLayers],
+) -> Vec<Option<usize>> {
     let mut pairs: Vec<Option<usize>> = vec![None; own.len()];
     for (number, layer) in other.iter().enumerate() {
+        let kind = match layer.kind {
+            LayerKind::Group(theirs) => match groups.iter().find(|pair| pair.theirs == theirs) {
+                Some(pair) => LayerKind::Group(pair.own),
+                // Of a group that was removed.
+                None => continue,
+            },
+            kind => kind,
+        };
         // Sets of texture coordinates correspond by order.
-        let same = |slot: &usize| own[*slot].kind == layer.kind && pairs[*slot].is_none();
+        let same = |slot: &usize| own[*slot].kind == kind && pairs[*slot].is_none();
         if let Some(slot) = (0..own.len()).find(same) {
             pairs[slot] = Some(number);
             continue;
@@ -210,6 +227,7 @@ impl Layer {
             LayerValues::Vec4(_) => LayerValues::Vec4(Column::new(Vec::new())),
             LayerValues::Influences(_) => LayerValues::Influences(Column::new(Vec::new())),
             LayerValues::Pins(_) => LayerValues::Pins(Column::new(Vec::new())),
+            LayerValues::Weights(_) => LayerValues::Weights(Column::new(Vec::new())),
         };
         Self { kind: self.kind, values }
     }
@@ -222,6 +240,7 @@ impl Layer {
             (LayerValues::Vec4(own), LayerValues::Vec4(other)) => *own.write(to) = other[from],
             (LayerValues::Influences(own), LayerValues::Influences(other)) => *own.write(to) = other[from],
             (LayerValues::Pins(own), LayerValues::Pins(other)) => *own.write(to) = other[from],
+            (LayerValues::Weights(own), LayerValues::Weights(other)) => *own.write(to) = other[from],
             _ => unreachable!("layers of the same kind have values of the same type"),
         }
     }

@@ -16,12 +16,13 @@ impl EditMesh {
     /// mirroring transform flips the faces, so that outside stays outside. Sets of texture coordinates
     /// correspond by order. Layers that either mesh lacks are zero for it, colours white. Material slots,
     /// joints and numbers of morph targets are unchanged: if they mean different things in the two objects,
-    /// adjust them first.
+    /// adjust them first. Vertex groups of the same name become one.
     ///
     /// # Errors
-    /// There would be too many elements.
+    /// There would be too many elements, or too many vertex groups.
     pub fn join_mesh(&mut self, other: &Self, transform: &DAffine3) -> Result<CopiedElements, Refusal> {
         self.check_capacity_for(NewElements::of(other))?;
+        self.check_groups_with(other)?;
         if *transform == DAffine3::IDENTITY {
             return Ok(self.append(other));
         }

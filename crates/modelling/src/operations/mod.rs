@@ -67,6 +67,7 @@ mod un_subdivide;
 mod unwrap;
 mod uv_overlaps;
 mod uv_pins;
+mod vertex_groups;
 mod voxel_remesh;
 mod wireframe;
 
@@ -110,5 +111,6 @@ pub use un_subdivide::UnSubdivided;
 pub use unwrap::{
     PackSettings, SmartProjection, StitchSettings, Stitched, UnwrapMethod, UnwrapSettings, Unwrapped,
 };
+pub use vertex_groups::GroupAssignment;
 pub use voxel_remesh::VoxelRemeshSettings;
 pub use wireframe::WireframeSettings;

@@ -6,7 +6,7 @@ use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3, Plane, Vec3};
 
 use super::*;
 use crate::modifier::{DecimateSettings, SolidifySettings};
-use crate::tests::{check_undo_and_redo, keeps_affine_values, meshes};
+use crate::tests::{add_affine_group, check_undo_and_redo, keeps_affine_values, meshes};
 use crate::{BooleanOperation, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 
 /// About half of some elements, as the bits of a number say, repeated.
@@ -14,8 +14,18 @@ fn some<T: Copy>(all: impl Iterator<Item = T>, bits: u64) -> Vec<T> {
     all.enumerate().filter(|(i, _)| bits >> (i % 64) & 1 != 0).map(|(_, element)| element).collect()
 }
 
+/// The name of the first vertex group; empty without any.
+fn first_group(mesh: &EditMesh) -> String {
+    mesh.vertex_group_names().next().unwrap_or_default().to_owned()
+}
+
+/// The group that limits an operation, half of the time.
+fn limit(mesh: &EditMesh, bits: u64) -> String {
+    if bits & 8 == 0 { String::new() } else { first_group(mesh) }
+}
+
 /// How many kinds of operations there are.
-const KINDS: u8 = 48;
+const KINDS: u8 = 52;
 
 /// Does an operation of a kind to the elements that some bits choose, with two parameters within −1…1.
 fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), Refusal> {
@@ -74,11 +84,17 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
                 thickness: b.abs(),
                 offset: a,
                 even: bits.is_multiple_of(2),
+                group: limit(mesh, bits),
                 ..Default::default()
             };
             mesh.solidify_faces(&faces, &settings).map(drop)
         }
-        26 => mesh.decimate(&faces, &DecimateSettings { ratio: a.abs(), ..Default::default() }).map(drop),
+        26 => {
+            let group = limit(mesh, bits);
+            let settings =
+                DecimateSettings { ratio: a.abs(), group, invert_group: b > 0.0, ..Default::default() };
+            mesh.decimate(&faces, &settings).map(drop)
+        }
         27 => {
             let height = if bits.is_multiple_of(3) { b } else { 0.0 };
             let settings = SpinSettings { angle: 6.0 * a, steps: 3, height, ..Default::default() };
@@ -161,6 +177,15 @@ fn step(mesh: &mut EditMesh, kind: u8, bits: u64, a: f64, b: f64) -> Result<(), 
             let settings = SolidSettings { within: a.abs() * 0.2, ..Default::default() };
             mesh.make_solid(&settings).map(drop)
         }
+        47 => mesh.add_vertex_group(&format!("{}", bits % 4)),
+        48 => {
+            let falloff = (b > 0.0).then_some(falloff);
+            let assignment = GroupAssignment { weight: b.abs(), falloff, replace: bits.is_multiple_of(2) };
+            mesh.assign_to_vertex_group(&first_group(mesh), &vertices, &assignment).map(drop)
+        }
+        49 => mesh.remove_from_vertex_group(&first_group(mesh), &vertices).map(drop),
+        50 if a > 0.0 => mesh.remove_vertex_group(&first_group(mesh)),
+        50 => mesh.rename_vertex_group(&first_group(mesh), &format!("{}", bits % 4)),
         _ => mesh.collapse_zero_length_edges(a.abs() * 0.2).map(drop),
     }
 }
@@ -174,6 +199,7 @@ proptest! {
     fn random_operations_keep_every_rule(
         start in meshes(),
         has_normals in any::<bool>(),
+        has_groups in any::<bool>(),
         steps in prop::collection::vec((any::<u8>(), any::<u64>(), -1.0f64..1.0, -1.0f64..1.0), 1..8),
     ) {
         let mut start = start;
@@ -181,6 +207,9 @@ proptest! {
             start.smooth_by_angle(1.0);
         }
         let (mut mesh, _) = EditMesh::from_mesh(&start);
+        if has_groups {
+            add_affine_group(&mut mesh, "affine");
+        }
         let first = mesh.clone();
         let mut differences = Vec::new();
         for s in steps {

@@ -192,7 +192,10 @@ impl EditMesh {
             match next.modify_in_range(&stacked.modifier, objects) {
                 Ok(()) => result = Some(next),
                 Err(
-                    Refusal::NotPossible { .. } | Refusal::NothingGiven { .. } | Refusal::NotSolid { .. },
+                    Refusal::NotPossible { .. }
+                    | Refusal::NothingGiven { .. }
+                    | Refusal::NotSolid { .. }
+                    | Refusal::NoSuchGroup(_),
                 ) => {}
                 Err(refusal) => return Err(refusal),
             }

@@ -10,7 +10,7 @@ use crate::modifier::{
     ArrayModifier, BevelModifier, BeveledEdges, DecimateSettings, MirrorModifier, ScrewModifier,
     SolidifySettings, TriangulateModifier, WeldModifier,
 };
-use crate::tests::meshes;
+use crate::tests::{add_affine_group, meshes};
 
 fn editable(mesh: &Mesh) -> EditMesh {
     EditMesh::from_mesh(mesh).0
@@ -265,12 +265,16 @@ pub(crate) fn stacked() -> impl Strategy<Value = StackedModifier> {
     );
     let weld = (0.0..1.0f64).prop_map(|distance| WeldModifier { distance }.into());
     let triangulate = (4u32..6).prop_map(|least_corners| TriangulateModifier { least_corners }.into());
-    let solidify =
-        (0.0..0.5f64, -1.0..=1.0f64, any::<[bool; 2]>()).prop_map(|(thickness, offset, [even, rim])| {
-            SolidifySettings { thickness, offset, even, rim, ..SolidifySettings::default() }.into()
-        });
-    let decimate =
-        (0.0..=1.0f64).prop_map(|ratio| DecimateSettings { ratio, ..DecimateSettings::default() }.into());
+    let group = || prop::sample::select(vec![String::new(), "affine".into(), "missing".into()]);
+    let solidify = (0.0..0.5f64, -1.0..=1.0f64, any::<[bool; 3]>(), group()).prop_map(
+        |(thickness, offset, [even, rim, invert_group], group)| {
+            SolidifySettings { thickness, offset, even, rim, group, invert_group, ..Default::default() }
+                .into()
+        },
+    );
+    let decimate = (0.0..=1.0f64, any::<bool>(), group()).prop_map(|(ratio, invert_group, group)| {
+        DecimateSettings { ratio, group, invert_group, ..DecimateSettings::default() }.into()
+    });
     let screw =
         (-360.0..360.0f64, 1u32..5, 0.0..1.0f64, 1u32..3).prop_map(|(angle, steps, height, turns)| {
             ScrewModifier { angle, steps, height, turns, ..ScrewModifier::default() }.into()
@@ -321,6 +325,9 @@ proptest! {
         start in meshes(), stack in prop::collection::vec(stacked(), 0..4), other in stacked(), at in any::<prop::sample::Index>()
     ) {
         let mut mesh = editable(&start);
+        if mesh.vertex_count() % 2 == 0 {
+            add_affine_group(&mut mesh, "affine");
+        }
         prop_assume!(mesh.set_modifiers(stack).is_ok());
         let mut live = evaluation(&mesh);
         let result = |live: &Evaluation, mesh: &EditMesh| live.to_edit_mesh().unwrap_or_else(|| {

@@ -251,6 +251,15 @@ actions! {
 
     "Mesh/Vertex" "vertex.menu" "Vertex Menu" "Ctrl+Shift+V" EditMode Ui(UiRequest::Popup("Mesh/Vertex")) => "Lists operations on vertices.";
 
+    "Mesh/Vertex Groups" "group.menu" "Vertex Group Menu" "Ctrl+G" EditMode Ui(UiRequest::Popup("Mesh/Vertex Groups")) => "Lists what can be done with named sets of weighted vertices.";
+    "Mesh/Vertex Groups" "group.add" "Add Group" "" EditMode Run(r#"{"op":"add_vertex_group"}"#) => "Adds a vertex group of the selected vertices to the active object.";
+    "Mesh/Vertex Groups" "group.assign" "Assign" "" Elements Run(r#"{"op":"assign_to_vertex_group"}"#) => "Gives the selected vertices a weight in the last group; choose group, weight and falloff with F9.";
+    "Mesh/Vertex Groups" "group.unassign" "Unassign" "" Elements Run(r#"{"op":"remove_from_vertex_group"}"#) => "Takes the selected vertices out of the last group; choose it with F9.";
+    "Mesh/Vertex Groups" "group.select" "Select" "" EditMode Run(r#"{"op":"select_vertex_group"}"#) => "Selects the vertices of the last group, too; choose group and weight with F9.";
+    "Mesh/Vertex Groups" "group.deselect" "Deselect" "" EditMode Run(r#"{"op":"select_vertex_group","action":"remove"}"#) => "Deselects the vertices of the last group; choose it with F9.";
+    "Mesh/Vertex Groups" "group.rename" "Rename" "" EditMode Run(r#"{"op":"rename_vertex_group","name":"Renamed"}"#) => "Gives the last group another name; write it with F9.";
+    "Mesh/Vertex Groups" "group.remove" "Remove Group" "" EditMode Run(r#"{"op":"remove_vertex_group"}"#) => "Removes the last group; choose it with F9.";
+
     "Mesh/Face" "face.menu" "Face Menu" "Ctrl+F" EditMode Ui(UiRequest::Popup("Mesh/Face")) => "Lists operations on faces.";
     "Mesh/Face" "face.smooth" "Shade Smooth" "" Meshes Run(r#"{"op":"shade"}"#) => "Shades the selected faces, or whole objects, smooth.";
     "Mesh/Face" "face.flat" "Shade Flat" "" Meshes Run(r#"{"op":"shade","smooth":false}"#) => "Shades the selected faces, or whole objects, flat.";

@@ -70,7 +70,7 @@ impl EditMesh {
     /// ```
     ///
     /// # Errors
-    /// No tool is given; a mesh does not bound a volume; there would be too many elements, or more memory would be
+    /// No tool is given; a mesh does not bound a volume; there would be too many elements or vertex groups, or more memory would be
     /// needed than is allowed, both counted before the mesh changes.
     pub fn boolean(
         &mut self,
@@ -115,7 +115,7 @@ impl EditMesh {
         let outlines = outlines(&solid, |vertex| given.has(solid.positions[vertex as usize]));
         let outlines = outlines.ok_or_else(|| refused(KernelFault::NotClosed))?;
         self.check_capacity_for(needed(&tools, &solid, &outlines))?;
-        self.whole(|mesh| Weave::new(mesh, &tools, &sources, &solid.positions).run(&outlines, operation))
+        self.whole(|mesh| Weave::new(mesh, &tools, &sources, &solid.positions)?.run(&outlines, operation))
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 
 use smallvec::SmallVec;
-use trigon_math::{DVec3, Vec3};
+use trigon_math::{DAffine3, DVec3, Vec3};
 
 use super::operation::Combined;
 use super::outlines::PatchPolygon;
@@ -50,18 +50,19 @@ pub(super) struct Weave<'m> {
 }
 
 impl<'m> Weave<'m> {
-    /// Adds all operands to the mesh.
+    /// Adds all operands to the mesh; refused if there would be too many vertex groups.
     pub(super) fn new(
         mesh: &'m mut EditMesh,
         tools: &[EditMesh],
         sources: &'m Sources,
         positions: &'m [DVec3],
-    ) -> Self {
-        let tools: Vec<CopiedElements> = tools.iter().map(|tool| mesh.append(tool)).collect();
+    ) -> Result<Self, Refusal> {
+        let add = |tool: &EditMesh| mesh.join_mesh(tool, &DAffine3::IDENTITY);
+        let tools: Vec<CopiedElements> = tools.iter().map(add).collect::<Result<_, _>>()?;
         let own = sources.faces.first().cloned().into_iter();
         let faces = own.chain(tools.iter().map(|tool| tool.faces.clone())).collect();
         let vertices = vec![NONE; positions.len()];
-        Self { mesh, sources, positions, faces, tools, vertices }
+        Ok(Self { mesh, sources, positions, faces, tools, vertices })
     }
 
     pub(super) fn run(

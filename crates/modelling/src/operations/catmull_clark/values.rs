@@ -55,6 +55,10 @@ impl EditMesh {
                 let values = self.interpolated_at_vertices(numbers, column.values());
                 column.replace(values);
             }
+            LayerValues::Weights(column) => {
+                let values = self.interpolated_at_vertices(numbers, column.values());
+                column.replace(values);
+            }
         }
     }
 
@@ -106,6 +110,10 @@ impl EditMesh {
                 column.replace(values);
             }
             LayerValues::Pins(column) => {
+                let values = self.interpolated_at_corners(numbers, column.values(), |mean, _| mean);
+                column.replace(values);
+            }
+            LayerValues::Weights(column) => {
                 let values = self.interpolated_at_corners(numbers, column.values(), |mean, _| mean);
                 column.replace(values);
             }

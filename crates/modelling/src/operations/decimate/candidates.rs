@@ -25,7 +25,7 @@ pub(super) struct Collapse {
     pub(super) point: DVec3,
     /// For the order.
     pub(super) cost: f64,
-    /// The mean squared distance from the planes.
+    /// The mean squared distance from the planes, divided by the square of what the edge allows.
     pub(super) error: f64,
 }
 
@@ -120,6 +120,10 @@ pub(super) fn candidate(surface: &Surface, Pair { ends: [a, b], is_feature }: Pa
         (_, Freedom::OnCurve) if !is_feature => return None,
         (one, two) => one == two,
     };
+    let allowance = surface.allowance([a, b]);
+    if allowance == 0.0 {
+        return None;
+    }
     let mut quadric = surface.quadrics[a as usize];
     quadric += surface.quadrics[b as usize];
     let weight = quadric.weight;
@@ -128,8 +132,9 @@ pub(super) fn candidate(surface: &Surface, Pair { ends: [a, b], is_feature }: Pa
     let length_squared = from.distance_squared(to);
     let point = if moves { surface.rounded(best_point(&quadric, from, to)) } else { from };
     let value = quadric.value(point);
-    let cost = value + SHORT_FIRST * weight * length_squared;
-    let error = if weight > 0.0 { value / weight } else { 0.0 };
+    let scale = 1.0 / (allowance * allowance);
+    let cost = (value + SHORT_FIRST * weight * length_squared) * scale;
+    let error = if weight > 0.0 { value / weight * scale } else { 0.0 };
     Some(Collapse { retained, gone, point, cost, error })
 }
 

@@ -235,6 +235,11 @@ impl CollapseRound<'_> {
         let other = surface.quadrics[gone as usize];
         surface.quadrics[retained as usize] += other;
         surface.values.merge_vertices(retained, gone);
+        if !surface.allowances.is_empty() {
+            // As the weight of the vertex will be.
+            let [own, other] = [retained, gone].map(|vertex| surface.allowances[vertex as usize]);
+            surface.allowances[retained as usize] = own * (1.0 - part) + other * part;
+        }
         let mut wedges: SmallVec<[[u32; 2]; 4]> = SmallVec::new();
         for &number in at_gone {
             if surface.triangles[number as usize].vertices.contains(&retained) {

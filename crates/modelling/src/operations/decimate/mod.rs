@@ -16,9 +16,10 @@ use self::collapse::{Goal, reduce};
 use self::surface::Surface;
 use super::region::Region;
 use crate::edit_mesh::EditMesh;
-use crate::ids::FaceId;
+use crate::ids::{FaceId, VertexId};
 use crate::modifier::{DecimateGoal, DecimateSettings};
 use crate::refusal::Refusal;
+use crate::vertex_groups::VertexGroup;
 
 /// What was left.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,10 +59,12 @@ impl EditMesh {
     /// nothing that is manifold becomes non-manifold; so more triangles may be left than were asked for. Borders of values
     /// that hold vertices never make others go that the shape needs. Vertices and faces
     /// that are left keep their ids. Values are interpolated along collapsed edges; normals that were given are interpolated,
-    /// too, but cleared where the corners of a collapsed vertex had different ones.
+    /// too, but cleared where the corners of a collapsed vertex had different ones. With [`DecimateSettings::group`], the
+    /// triangles' number counts all, and edges at a vertex of weight 0 never collapse.
     ///
     /// # Errors
-    /// No face is given, or one does not exist; a parameter is out of range; there is no room for the triangles.
+    /// No face is given, or one does not exist; a parameter is out of range; there is no such group; there is no room for
+    /// the triangles.
     ///
     /// ```
     /// use trigon_mesh::primitives;
@@ -77,25 +80,42 @@ impl EditMesh {
     /// ```
     pub fn decimate(&mut self, faces: &[FaceId], settings: &DecimateSettings) -> Result<Decimated, Refusal> {
         settings.check()?;
+        self.limiting_group(&settings.group)?;
         let triangles = self.triangulate_faces(faces)?.faces;
         let region = Region::new(self, &triangles, "decimating")?;
         let goal = settings.goal(region.faces.len());
         let mut surface = Surface::of(self, &region, settings.hold_values);
-        let limit = if surface.has_value_borders { self.error_of_shape(&region, goal) } else { goal.error };
+        surface.allowances = self.allowances(&surface.vertices, settings)?;
+        let allowances = &surface.allowances;
+        let limit = if surface.has_value_borders {
+            self.error_of_shape(&region, goal, allowances)
+        } else {
+            goal.error
+        };
         let error = reduce(self, &mut surface, Goal { error: limit.min(goal.error), ..goal });
         let faces = self.rebuild(&region, &surface);
         let is_held = settings.goal != DecimateGoal::Error && faces.len() > goal.triangles;
         Ok(Decimated { removed: region.faces.len() - faces.len(), faces, is_held, error: error.sqrt() })
     }
 
+    /// By vertices, how much of an error each allows; empty without a group.
+    fn allowances(&self, vertices: &[VertexId], settings: &DecimateSettings) -> Result<Vec<f64>, Refusal> {
+        let group = self.limiting_group(&settings.group)?;
+        let of_group = |group: VertexGroup<'_>| {
+            vertices.iter().map(|&vertex| group.factor(vertex, settings.invert_group)).collect()
+        };
+        Ok(group.map_or_else(Vec::new, of_group))
+    }
+
     /// The greatest error that is allowed for the sake of values: a few times the one with which the shape alone would
     /// reach the goal. Where values hold what could go at no error, nothing else goes in its place.
-    fn error_of_shape(&self, region: &Region, goal: Goal) -> f64 {
+    fn error_of_shape(&self, region: &Region, goal: Goal, allowances: &[f64]) -> f64 {
         /// Of the square of a length.
         const TIMES: f64 = 4.0;
         /// Of the extent: less is not visible.
         const LEAST: f64 = 1e-4;
         let mut shape = Surface::of(self, region, false);
+        shape.allowances = allowances.to_vec();
         let extent = self.bounds_of(shape.vertices.iter().copied()).size().max_element();
         let least = LEAST * extent;
         (TIMES * reduce(self, &mut shape, goal)).max(least * least)

@@ -58,6 +58,8 @@ pub(super) struct Surface {
     /// Vertices of faces and loose edges that are not reduced.
     pub(super) is_outside: FixedBitSet,
     pub(super) quadrics: Vec<Quadric>,
+    /// How much of an error each vertex allows, 0 to 1; empty where all allow it wholly.
+    pub(super) allowances: Vec<f64>,
     pub(super) triangles: Vec<ReducedTriangle>,
     pub(super) features: Vec<Marks>,
     /// Merged vertices, in order.
@@ -95,6 +97,7 @@ impl Surface {
             freedoms: vec![Freedom::Free; vertices.len()],
             is_outside: FixedBitSet::with_capacity(vertices.len()),
             quadrics: vec![Quadric::default(); vertices.len()],
+            allowances: Vec::new(),
             faces: region.faces.clone(),
             origin,
             features: Vec::new(),
@@ -138,6 +141,12 @@ impl Surface {
             }
         }
         counts
+    }
+
+    /// How much of an error an edge between two vertices allows.
+    pub(super) fn allowance(&self, ends: [u32; 2]) -> f64 {
+        let [a, b] = ends.map(|end| self.allowances.get(end as usize).copied().unwrap_or(1.0));
+        if a < b { a } else { b }
     }
 
     /// The corners of a triangle that was not changed yet.

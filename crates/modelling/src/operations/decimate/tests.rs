@@ -150,9 +150,9 @@ fn what_is_out_of_range_is_refused() {
     let faces = all(&cube);
     let settings = DecimateSettings::default();
     for wrong in [
-        DecimateSettings { ratio: 1.5, ..settings },
-        DecimateSettings { ratio: f64::NAN, ..settings },
-        DecimateSettings { error: -1.0, ..settings },
+        DecimateSettings { ratio: 1.5, ..settings.clone() },
+        DecimateSettings { ratio: f64::NAN, ..settings.clone() },
+        DecimateSettings { error: -1.0, ..settings.clone() },
     ] {
         assert!(cube.decimate(&faces, &wrong).is_err(), "{wrong:?}");
     }

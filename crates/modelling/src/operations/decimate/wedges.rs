@@ -52,7 +52,7 @@ impl EditMesh {
                 LayerValues::Vec2(column) => same(column[a.0].to_array(), column[b.0].to_array()),
                 LayerValues::Vec3(column) => same(column[a.0].to_array(), column[b.0].to_array()),
                 LayerValues::Vec4(column) => same(column[a.0].to_array(), column[b.0].to_array()),
-                LayerValues::Influences(_) | LayerValues::Pins(_) => true,
+                LayerValues::Influences(_) | LayerValues::Pins(_) | LayerValues::Weights(_) => true,
             }
         })
     }

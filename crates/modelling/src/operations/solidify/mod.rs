@@ -43,10 +43,12 @@ impl EditMesh {
     /// With [`SolidifySettings::even`], a vertex whose faces lie in up to three planes moves so that each plane moves by
     /// exactly the distance, up to rounding to `f32`; with more planes, the distance is right in the least squares. No
     /// vertex moves farther than 20 times the distance, which almost folded faces would need. A vertex without a normal
-    /// stays. Thick walls of small details may cross each other.
+    /// stays. Thick walls of small details may cross each other. With [`SolidifySettings::group`], the distance at a vertex
+    /// is times its weight; where that is 0 both layers meet.
     ///
     /// # Errors
-    /// No face is given, or one does not exist; a parameter is out of range; there would be too many elements.
+    /// No face is given, or one does not exist; a parameter is out of range; there is no such group; there would be too
+    /// many elements.
     ///
     /// ```
     /// use trigon_mesh::primitives;
@@ -75,7 +77,12 @@ impl EditMesh {
             corners: corners + 4 * rim,
             faces: (region.faces.len() + border.len()) as u64,
         })?;
-        let shifts = self.shifts(&region, &vertices, settings.even);
+        let mut shifts = self.shifts(&region, &vertices, settings.even);
+        if let Some(group) = self.limiting_group(&settings.group)? {
+            for (shift, &vertex) in shifts.iter_mut().zip(&vertices) {
+                *shift *= group.factor(vertex, settings.invert_group);
+            }
+        }
         let made = self.add_layer(&region, &vertices, &border);
         for (&inner, material) in made.inner.iter().zip(std::iter::repeat(settings.inner_material)) {
             material.into_iter().for_each(|material| self.set_material(inner, material));

@@ -54,7 +54,7 @@ fn planes_at_any_angle_keep_their_distance() {
         }
         assert!(mesh.face_normal(inner).dot(*normal) < -0.999, "it looks inwards");
     }
-    let uneven = SolidifySettings { even: false, ..settings };
+    let uneven = SolidifySettings { even: false, ..settings.clone() };
     let (mut other, _) = EditMesh::from_mesh(&primitives::dodecahedron(1.0));
     other.solidify_faces(&all(&other), &uneven).expect("possible");
     assert!(other.volume() < mesh.volume(), "thinner walls");
@@ -81,9 +81,9 @@ fn what_is_out_of_range_is_refused() {
     let faces = all(&cube);
     let settings = SolidifySettings::default();
     for wrong in [
-        SolidifySettings { thickness: -1.0, ..settings },
-        SolidifySettings { thickness: f64::NAN, ..settings },
-        SolidifySettings { offset: 1.5, ..settings },
+        SolidifySettings { thickness: -1.0, ..settings.clone() },
+        SolidifySettings { thickness: f64::NAN, ..settings.clone() },
+        SolidifySettings { offset: 1.5, ..settings.clone() },
     ] {
         assert!(cube.solidify_faces(&faces, &wrong).is_err(), "{wrong:?}");
     }

@@ -9,7 +9,7 @@ use trigon_math::{Vec3, area_vector};
 use trigon_mesh::triangulate_polygon;
 
 use super::*;
-use crate::tests::check_operation;
+use crate::tests::{add_affine_group, check_operation};
 use crate::{CornerId, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use inputs::Input;
 use operations::OPERATIONS;
@@ -79,7 +79,10 @@ const fn operation(name: &'static str, promise: Promise, run: Run) -> Operation 
 /// Runs one operation on one input with one choice.
 fn check(input: &Input, operation: &Operation, number: u64) -> Result<(), String> {
     let Operation { promise, run, .. } = operation;
-    let (before, _) = EditMesh::from_mesh(&input.mesh);
+    let (mut before, _) = EditMesh::from_mesh(&input.mesh);
+    if number % 2 == 1 {
+        add_affine_group(&mut before, "affine");
+    }
     let on = Chosen::of(&before, number);
     let Some((after, ())) = check_operation(&before, |mesh| run(mesh, &on))? else { return Ok(()) };
     let [was, is] = [&before, &after].map(Facts::of);

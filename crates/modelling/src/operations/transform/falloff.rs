@@ -74,14 +74,18 @@ impl FalloffShape {
 }
 
 /// What moves, and how much of the way: the vertices in ascending order.
-pub(super) struct Weighted {
-    pub(super) vertices: Vec<VertexId>,
-    pub(super) weights: Vec<f64>,
+pub(in crate::operations) struct Weighted {
+    pub(in crate::operations) vertices: Vec<VertexId>,
+    pub(in crate::operations) weights: Vec<f64>,
 }
 
 impl Falloff {
     /// All vertices that move when some, in ascending order, move wholly.
-    pub(super) fn weigh(&self, mesh: &EditMesh, moved: &[VertexId]) -> Result<Weighted, Refusal> {
+    pub(in crate::operations) fn weigh(
+        &self,
+        mesh: &EditMesh,
+        moved: &[VertexId],
+    ) -> Result<Weighted, Refusal> {
         if !(self.radius > 0.0 && self.radius.is_finite()) {
             let (parameter, range) = ("the radius of the falloff", "above 0 and finite");
             return Err(Refusal::OutOfRange { parameter, value: self.radius, range });

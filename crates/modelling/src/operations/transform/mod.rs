@@ -15,7 +15,9 @@ mod session;
 #[cfg(test)]
 mod tests;
 
+pub(super) use falloff::Weighted;
 pub(super) use given_normals::GivenNormals;
+pub(super) use session::sorted;
 
 pub use falloff::{Falloff, FalloffDistance, FalloffShape};
 pub use kind::Transform;

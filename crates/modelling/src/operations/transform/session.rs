@@ -218,7 +218,10 @@ impl MoveSession {
 }
 
 /// The vertices in ascending order, each once.
-fn sorted(mesh: &EditMesh, vertices: &[VertexId]) -> Result<Vec<VertexId>, Refusal> {
+pub(in crate::operations) fn sorted(
+    mesh: &EditMesh,
+    vertices: &[VertexId],
+) -> Result<Vec<VertexId>, Refusal> {
     require(vertices, "moving vertices", "at least one vertex")?;
     vertices.iter().try_for_each(|&vertex| mesh.check_vertex(vertex))?;
     let mut sorted = vertices.to_vec();

@@ -7,7 +7,9 @@ use std::collections::BTreeSet;
 
 use serde_json::value::RawValue;
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Attributes, Deltas, EdgeMark, EditData, Mesh, MeshColumns, MorphTarget, SkinWeights};
+use trigon_mesh::{
+    Attributes, Deltas, EdgeMark, EditData, Mesh, MeshColumns, MorphTarget, SkinWeights, VertexGroupData,
+};
 
 use super::NativeHeader;
 use crate::formats::gltf::triangle_hash::xxh64;
@@ -124,6 +126,7 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
         joints_per_vertex: attributes.skin.as_ref().map(SkinWeights::per_vertex),
         targets: attributes.morph_targets.len(),
         edited: edit_data.is_some(),
+        groups: edit_data.map_or_else(Vec::new, group_names),
         modifiers: edit_data.and_then(|data| RawValue::from_string(data.modifiers.clone()).ok()),
         empty: if mesh.face_count() == 0 { optional_columns(attributes) } else { BTreeSet::new() },
         ..NativeHeader::default()
@@ -161,6 +164,14 @@ fn write_edit_data(writer: &mut ColumnWriter, data: &EditData) {
     writer.words("hiddenFaces", data.hidden_faces.iter().copied());
     writer.words("sharpCorners", data.sharp_corners.iter().copied());
     writer.words("pinnedCorners", data.pinned_corners.as_flattened().iter().copied());
+    for (number, group) in data.vertex_groups.iter().enumerate() {
+        writer.words(format!("group{number}.vertices"), group.vertices.iter().copied());
+        writer.floats(format!("group{number}.weights"), group.weights.iter().map(|&weight| [weight]));
+    }
+}
+
+fn group_names(data: &EditData) -> Vec<String> {
+    data.vertex_groups.iter().map(|group| group.name.clone()).collect()
 }
 
 /// Finds the bytes of columns by name, and hashes those requested.
@@ -247,7 +258,7 @@ pub(in crate::formats::gltf) fn mesh_from_columns(
         loose_points: reader.words("loosePoints")?,
     };
     let attributes = read_attributes(reader, header)?;
-    let edit_data = header.edited.then(|| read_edit_data(reader, modifiers_of(header))).transpose()?;
+    let edit_data = header.edited.then(|| read_edit_data(reader, header)).transpose()?;
     let mut mesh = Mesh::from_columns(columns).map_err(|error| error.to_string())?;
     mesh.set_attributes(attributes).map_err(|error| error.to_string())?;
     Ok((mesh, edit_data))
@@ -322,7 +333,17 @@ fn modifiers_of(header: &NativeHeader) -> String {
     }
 }
 
-fn read_edit_data(reader: &mut ColumnReader<'_>, modifiers: String) -> Result<EditData, String> {
+fn read_groups(reader: &mut ColumnReader<'_>, names: &[String]) -> Result<Vec<VertexGroupData>, String> {
+    let read = |(number, name): (usize, &String)| {
+        let vertices = reader.words(&format!("group{number}.vertices"))?;
+        let column = format!("group{number}.weights");
+        let weights = floats::<1>(&column, reader.column(&column))?.into_flattened();
+        Ok(VertexGroupData { name: name.clone(), vertices, weights })
+    };
+    names.iter().enumerate().map(read).collect()
+}
+
+fn read_edit_data(reader: &mut ColumnReader<'_>, header: &NativeHeader) -> Result<EditData, String> {
     let first_positions = vec3("firstPositions", reader.column("firstPositions"))?;
     let edges = reader.words("edgeMarks")?;
     let (edges, []) = edges.as_chunks::<4>() else { return Err(uneven("edgeMarks")) };
@@ -344,6 +365,7 @@ fn read_edit_data(reader: &mut ColumnReader<'_>, modifiers: String) -> Result<Ed
             let (pairs, []) = words.as_chunks::<2>() else { return Err(uneven("pinnedCorners")) };
             pairs.to_vec()
         },
-        modifiers,
+        vertex_groups: read_groups(reader, &header.groups)?,
+        modifiers: modifiers_of(header),
     })
 }

@@ -241,6 +241,9 @@ pub(super) struct NativeHeader {
     /// Whether the mesh was being edited, and so has edit data.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(super) edited: bool,
+    /// The names of the vertex groups of an edited mesh.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) groups: Vec<String>,
     /// The stack of modifiers of an edited mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) modifiers: Option<Box<RawValue>>,
