@@ -72,6 +72,7 @@ fn modifier(random: &mut SplitMix64) -> Value {
         3 => json!({
             "kind": "bevel", "edges": (["angle", "sharp", "creased", "all"][random.below(4)]),
             "width": random.between(0.0, 0.3), "segments": 1 + random.below(2), "harden_normals": random.below(2) == 0,
+            "group": group(random),
         }),
         4 => json!({ "kind": "weld", "distance": random.between(0.0, 0.8) }),
         5 => {
@@ -248,6 +249,10 @@ impl Session {
                 self.select("edge", &edges);
                 if settings.edges == BeveledEdges::Angle {
                     assert!(self.run(json!({ "op": "select_sharp", "angle": settings.angle })), "it selects");
+                }
+                let within = json!({ "op": "select_vertex_group", "group": settings.group, "minimum": 0.5, "action": "intersect" });
+                if !settings.group.is_empty() && !self.run(within) {
+                    return false;
                 }
                 // Where there is nothing to bevel it is refused, and nothing changes.
                 self.run(json!({

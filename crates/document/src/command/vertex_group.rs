@@ -221,13 +221,20 @@ impl Action for SelectVertexGroup {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
+    use serde_json::{Value, json};
     use trigon_mesh::primitives;
 
-    use crate::tests::commands::{chosen, edited, editing_faces, run, try_run};
+    use crate::document::Document;
+    use crate::tests::commands::{edited, editing_faces, run, try_run};
 
-    fn names(document: &crate::document::Document) -> Vec<String> {
+    fn names(document: &Document) -> Vec<String> {
         edited(document).vertex_group_names().map(str::to_owned).collect()
+    }
+
+    /// Runs a command. Returns how many elements are selected.
+    fn selected(document: &mut Document, command: Value) -> usize {
+        run(document, command);
+        document.selection().meshes().next().expect("one is edited").1.len()
     }
 
     #[test]
@@ -272,14 +279,14 @@ mod tests {
         assert_eq!(outcome.message, "weighted 9 vertices", "nearer than 2 m");
         let select =
             |minimum: f64| json!({ "op": "select_vertex_group", "minimum": minimum, "action": "replace" });
-        assert_eq!(chosen(&mut document, select(0.0)), 9);
-        assert_eq!(chosen(&mut document, select(0.25)), 5, "1 m away");
-        assert_eq!(chosen(&mut document, select(0.5)), 1, "the middle");
+        assert_eq!(selected(&mut document, select(0.0)), 9);
+        assert_eq!(selected(&mut document, select(0.25)), 5, "1 m away");
+        assert_eq!(selected(&mut document, select(0.5)), 1, "the middle");
         let outcome = try_run(&mut document, json!({ "op": "remove_from_vertex_group" })).expect("possible");
         assert_eq!(outcome.message, "removed 1 vertex");
         run(&mut document, json!({ "op": "select_all" }));
         let deselect = json!({ "op": "select_vertex_group", "group": "spot", "action": "remove" });
-        assert_eq!(chosen(&mut document, deselect), 25 - 8);
+        assert_eq!(selected(&mut document, deselect), 25 - 8);
         let unknown = json!({ "op": "select_vertex_group", "group": "spots" });
         let refused = try_run(&mut document, unknown).expect_err("no such group").to_string();
         assert!(refused.contains("\"spots\""), "{refused}");
@@ -291,7 +298,7 @@ mod tests {
         run(&mut document, json!({ "op": "add_vertex_group", "name": "thick" }));
         let wall = json!({ "kind": "solidify", "thickness": 0.5, "group": "thick" });
         run(&mut document, json!({ "op": "add_modifier", "modifier": wall }));
-        let volume = |document: &mut crate::document::Document| {
+        let volume = |document: &mut Document| {
             let scene = document.scene_to_render();
             let (_, asset) = scene.meshes().iter().next().expect("one");
             trigon_modelling::EditMesh::from_mesh(asset.mesh()).0.volume()

@@ -144,6 +144,7 @@ impl Modifier {
     fn group_limit(&mut self) -> Option<&mut String> {
         match self {
             Self::Solidify(SolidifySettings { group, .. })
+            | Self::Bevel(BevelModifier { group, .. })
             | Self::Decimate(DecimateSettings { group, .. }) => Some(group),
             _ => None,
         }

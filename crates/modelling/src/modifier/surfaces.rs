@@ -68,6 +68,11 @@ pub struct BevelModifier {
     pub clamp_overlap: bool,
     /// Whether the old faces stay shaded as flat ones.
     pub harden_normals: bool,
+    /// The vertex group that limits it; empty for none. Of the edges those remain whose two vertices have at least half a
+    /// weight.
+    pub group: String,
+    /// Whether it acts where the group does not: with 1 minus the weight.
+    pub invert_group: bool,
 }
 
 impl BevelModifier {
@@ -89,6 +94,8 @@ impl Default for BevelModifier {
             profile: 0.5,
             clamp_overlap: true,
             harden_normals: false,
+            group: String::new(),
+            invert_group: false,
         }
     }
 }

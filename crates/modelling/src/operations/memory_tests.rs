@@ -32,7 +32,7 @@ fn plane() -> Plane {
 }
 
 /// Each on a tube without its ends.
-const OPERATIONS: [(&str, Operation); 33] = [
+const OPERATIONS: [(&str, Operation); 34] = [
     ("Catmull-Clark", |mesh| mesh.catmull_clark(3)),
     ("subdivide", |mesh| mesh.subdivide(&edges(mesh), 9).map(drop)),
     ("triangulate", |mesh| mesh.triangulate_faces(&faces(mesh)).map(drop)),
@@ -103,6 +103,7 @@ const OPERATIONS: [(&str, Operation); 33] = [
         let rim: Vec<EdgeId> = rims(mesh).into_iter().filter(|&edge| is_above(mesh, edge)).collect();
         mesh.grid_fill(&rim, GridSides::default()).map(drop)
     }),
+    ("add a vertex group", |mesh| mesh.add_vertex_group("one")),
     ("join", |mesh| {
         let other = mesh.clone();
         mesh.join_mesh(&other, &DAffine3::from_translation(DVec3::X)).map(drop)

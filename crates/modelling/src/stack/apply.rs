@@ -129,6 +129,7 @@ impl EditMesh {
     }
 
     fn modify_by_bevel(&mut self, settings: &BevelModifier) -> Result<(), Refusal> {
+        self.limiting_group(&settings.group)?;
         let edges = self.edges_to_bevel(settings);
         if edges.is_empty() {
             return Ok(());
@@ -150,6 +151,15 @@ impl EditMesh {
 
     /// The edges that a bevel replaces if it can.
     pub(super) fn edges_to_bevel(&self, settings: &BevelModifier) -> Vec<EdgeId> {
+        let mut edges = self.edges_of_kind(settings);
+        if let Some(group) = self.vertex_group(&settings.group) {
+            let is_in = |vertex: VertexId| group.factor(vertex, settings.invert_group) >= 0.5;
+            edges.retain(|&edge| self.edge_vertices(edge).into_iter().all(is_in));
+        }
+        edges
+    }
+
+    fn edges_of_kind(&self, settings: &BevelModifier) -> Vec<EdgeId> {
         match settings.edges {
             BeveledEdges::Angle => self.edges_by_angle(settings.angle.to_radians()),
             BeveledEdges::Sharp => self.edges().filter(|&edge| self.is_sharp(edge)).collect(),

@@ -258,14 +258,13 @@ pub(crate) fn stacked() -> impl Strategy<Value = StackedModifier> {
                 .into()
         },
     );
-    let bevel = (prop::sample::select(any_edges.to_vec()), 0.0..0.3f64, 1u32..3).prop_map(
-        |(edges, width, segments)| {
-            BevelModifier { edges, width, segments, ..BevelModifier::default() }.into()
-        },
-    );
+    let group = || prop::sample::select(vec![String::new(), "affine".into(), "missing".into()]);
+    let bevel = (prop::sample::select(any_edges.to_vec()), 0.0..0.3f64, 1u32..3, any::<bool>(), group())
+        .prop_map(|(edges, width, segments, invert_group, group)| {
+            BevelModifier { edges, width, segments, group, invert_group, ..BevelModifier::default() }.into()
+        });
     let weld = (0.0..1.0f64).prop_map(|distance| WeldModifier { distance }.into());
     let triangulate = (4u32..6).prop_map(|least_corners| TriangulateModifier { least_corners }.into());
-    let group = || prop::sample::select(vec![String::new(), "affine".into(), "missing".into()]);
     let solidify = (0.0..0.5f64, -1.0..=1.0f64, any::<[bool; 3]>(), group()).prop_map(
         |(thickness, offset, [even, rim, invert_group], group)| {
             SolidifySettings { thickness, offset, even, rim, group, invert_group, ..Default::default() }

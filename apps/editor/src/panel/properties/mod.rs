@@ -1,6 +1,7 @@
 //! The tab *Properties*: exact values of the active object, or of selected elements.
 
 mod elements;
+mod groups;
 mod material;
 mod modifiers;
 mod object;
@@ -59,6 +60,10 @@ pub(crate) fn properties(
         });
         if let Some(light) = node.light.as_deref().copied() {
             section(ui, "Light", |ui| transform::light(ui, object, light, requests));
+        }
+        let groups = groups::names(object);
+        if !groups.is_empty() {
+            section(ui, "Vertex Groups", |ui| groups::groups(ui, object, &groups, requests));
         }
         if node.mesh.is_some() {
             section(ui, "Modifiers", |ui| modifiers::modifiers(ui, object, requests));

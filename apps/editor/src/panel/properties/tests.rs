@@ -295,6 +295,37 @@ fn modifiers_are_added_switched_moved_and_removed_in_the_panel() {
 }
 
 #[test]
+fn vertex_groups_are_assigned_selected_and_removed_in_the_panel() {
+    let (mut case, [cube, _]) = case(320.0, 1400.0);
+    select(&mut case, "Cube");
+    assert!(case.harness.query_by_label("Vertex Groups").is_none(), "there is none");
+    case.command(json!({ "op": "edit_objects" }));
+    case.command(json!({ "op": "select", "elements": [0, 1] }));
+    case.command(json!({ "op": "add_vertex_group", "name": "top" }));
+    let mesh = case.document().nodes().node(cube).and_then(|node| node.mesh).expect("the cube's");
+    let count = |case: &mut Case<PropertiesState>, name: &str| {
+        let group = case.document().mesh(mesh).expect("it is edited").vertex_group(name);
+        group.map(|group| group.vertices().count())
+    };
+    assert_eq!(count(&mut case, "top"), Some(2), "the selected ones");
+    case.command(json!({ "op": "select_all" }));
+    case.click("Deselect top");
+    let selected =
+        |case: &mut Case<PropertiesState>| case.document().selection().of(mesh).map(|all| all.len());
+    assert_eq!(selected(&mut case), Some(6), "the others");
+    case.click("Assign top");
+    assert_eq!(count(&mut case, "top"), Some(8), "all");
+    case.click("Unassign top");
+    case.click("Select top");
+    assert_eq!((count(&mut case, "top"), selected(&mut case)), (Some(2), Some(8)));
+    case.click("Add Vertex Group");
+    assert_eq!(count(&mut case, "Group"), Some(8), "with the selected ones");
+    case.assert_nothing_is_clipped();
+    case.click("Remove top");
+    assert_eq!((count(&mut case, "top"), count(&mut case, "Group")), (None, Some(8)));
+}
+
+#[test]
 fn a_modifier_says_which_object_it_lacks() {
     let (mut case, _) = case(320.0, 1400.0);
     select(&mut case, "Cube");

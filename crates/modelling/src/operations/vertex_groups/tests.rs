@@ -5,7 +5,7 @@ use trigon_math::{DAffine3, DVec3, Vec3};
 use trigon_mesh::primitives;
 
 use super::*;
-use crate::modifier::{DecimateSettings, SolidifySettings, StackedModifier, WeldModifier};
+use crate::modifier::{BevelModifier, DecimateSettings, SolidifySettings, StackedModifier, WeldModifier};
 use crate::tests::{add_affine_group, affine_weight, check_operation, meshes};
 use crate::{BisectSettings, EdgeId, ExtrudeOffset, FaceId, FalloffDistance, FalloffShape};
 
@@ -284,6 +284,28 @@ fn the_thickness_of_a_wall_is_times_the_weight() {
     let before = grid.clone();
     assert_eq!(grid.solidify_faces(&faces, &missing), Err(Refusal::NoSuchGroup("thin".into())));
     assert!(grid == before, "nothing was done");
+}
+
+#[test]
+fn a_bevel_is_limited_to_edges_within_a_group() {
+    let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    cube.add_vertex_group("top").expect("room");
+    let top: Vec<VertexId> = cube.vertices().filter(|&vertex| cube.position(vertex).y > 0.0).collect();
+    let volume = |weight: f64, settings: BevelModifier| {
+        let mut cube = cube.clone();
+        let assignment = GroupAssignment { weight, ..GroupAssignment::default() };
+        cube.assign_to_vertex_group("top", &top, &assignment).expect("four");
+        cube.set_modifiers(vec![StackedModifier::new(settings)]).expect("in range");
+        let result = cube.evaluated(&crate::NoObjects).expect("small");
+        result.expect("one is on").volume()
+    };
+    let bevel = BevelModifier { width: 0.5, group: "top".into(), ..BevelModifier::default() };
+    // A frustum of height 1/2 below a square of 1 by 1, on a box.
+    let expected = 4.0 * 1.5 + 0.5 / 3.0 * (4.0 + 1.0 + 2.0);
+    assert!((volume(0.5, bevel.clone()) - expected).abs() < 1e-6, "the four edges around the top");
+    assert!((volume(0.49, bevel.clone()) - 8.0).abs() < 1e-6, "too little weight");
+    let inverted = BevelModifier { invert_group: true, ..bevel };
+    assert!((volume(1.0, inverted) - expected).abs() < 1e-6, "the four around the bottom");
 }
 
 /// A sphere whose upper half is in a group with weight 0, the rest with 1.
