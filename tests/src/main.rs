@@ -2,6 +2,7 @@
 
 mod anywhere;
 mod blending;
+mod budget;
 mod camera;
 mod certify;
 mod clipping;

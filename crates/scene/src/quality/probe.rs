@@ -110,13 +110,15 @@ impl TimeBudget {
         let best = of_quality(part, self.reference);
         let (reference, _) = studio.draw(&best, camera, 1)?;
         self.errors.learn(Quality::of(&best), &reference, &reference);
+        let mut drawn: Vec<RenderSettings> = Vec::new();
         for (quality, sum) in self.candidates.iter().zip(times) {
             let settings = of_quality(part, *quality);
             // The reference takes long and nobody waits for it.
-            if settings != best {
+            if settings != best && !drawn.contains(&settings) {
                 let (image, time) = studio.draw(&settings, camera, MEASURED)?;
                 self.errors.learn(Quality::of(&settings), &image, &reference);
                 *sum += time;
+                drawn.push(settings);
             }
         }
         Ok(())
