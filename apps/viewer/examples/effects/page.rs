@@ -61,7 +61,24 @@ the image read. Neighbours count as far as they lie on the plane of the surface,
 edge mix. A sample whose surface the small image does not show casts a quarter of the rays itself. The image depends on nothing but the
 scene, the camera and the settings. Drafts in a window are drawn so; the image at rest has the rays that the settings ask for.
 
-TABLE_HERE## What metals reflect
+    cargo bench -p trigon-study --bench occlusion
+
+times it beside rays at every sample (480×300 pixels, one sample each, one thread, AVX-512, 15 rounds in turn, medians), and compares both
+with 1,024 rays in f64 at every pixel. Errors are root mean squares, relative to those of 16 rays at every sample:
+
+| rays | exhibition | error | boxes | error | knots | error |
+|---|--:|--:|--:|--:|--:|--:|
+| none | 6.7 ms | | 1.4 ms | | 2.0 ms | |
+| 16 at every sample | +1736 % | 1 | +2232 % | 1 | +1909 % | 1 |
+| 64 at every sample | +6088 % | 0.45 | +8406 % | 0.34 | +7328 % | 0.60 |
+| 16 shared | +112 % | 1.45 | +161 % | 1.96 | +160 % | 1.48 |
+| 32 shared (`draft`) | +140 % | 1.24 | +184 % | 1.53 | +194 % | 1.18 |
+| 64 shared (`standard`) | +196 % | 1.06 | +255 % | 1.33 | +258 % | 0.98 |
+
+In the exhibition 45,168 rays and the boxes in which they start take about 7 of the 9 ms that 32 shared rays add; the rest is the second pass.
+What remains of the error lies where occlusion is narrower than the five pixels over which the mean is taken.
+
+## What metals reflect
 
 Lit by lamps alone, a metal is black outside its highlights. Metals therefore reflect a studio if the scene has no
 environment and no ambient light of its own, unless it is drawn with nothing but its own lights (`Lighting::Scene`). The
