@@ -172,7 +172,7 @@ mod tests {
         let choices = Setting::Occlusion.choices(&settings);
         let kept = choices.iter().filter_map(|(_, choice)| choice.effects.ambient_occlusion);
         assert!(
-            kept.clone().count() == 6 && kept.clone().all(|kept| kept.distance == 0.25),
+            kept.clone().count() == 8 && kept.clone().all(|kept| kept.distance == 0.25),
             "however many rays"
         );
     }
