@@ -274,7 +274,9 @@ impl Changing {
             Change::Shadows(shadows) => settings.effects.shadows = shadows,
             Change::Rays(bounces, rays) => {
                 settings.effects.sight = SightRays::all(bounces);
-                settings.effects.ambient_occlusion = rays.map(|rays| AmbientOcclusion::new(rays, 1.0));
+                let sampling = [OcclusionSampling::Full, OcclusionSampling::Shared][bounces as usize % 2];
+                settings.effects.ambient_occlusion =
+                    rays.map(|rays| AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, 1.0) });
             }
             Change::Shading(model) => settings.shading = model,
             Change::Style(style) => settings.style = style,

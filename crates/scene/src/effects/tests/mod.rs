@@ -24,8 +24,8 @@ use super::*;
 use crate::{
     AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Exposure,
     Fog, Frame, Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap,
-    Occlusion, Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows, SightRays, Style,
-    TextureBinding, ToneMapping, Transform, render,
+    Occlusion, OcclusionSampling, Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows,
+    SightRays, Style, TextureBinding, ToneMapping, Transform, render,
 };
 
 const SIDE: u32 = 128;

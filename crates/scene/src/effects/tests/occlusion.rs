@@ -3,7 +3,6 @@
 use trigon_math::{DVec2, DVec3};
 
 use super::*;
-use crate::OcclusionSampling;
 
 /// How far surfaces occlude, in metres.
 const DISTANCE: f64 = 1.0;

@@ -290,7 +290,10 @@ fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
                 shadows: [Shadows::Off, Shadows::Rays, Shadows::Maps { resolution: 16 }]
                     [usize::from(shadows)],
                 environment: environment.then(|| Arc::new(Environment::uniform(Vec3::ONE))),
-                ambient_occlusion: occlusion.then_some(AmbientOcclusion::new(2, 1.0)),
+                ambient_occlusion: occlusion.then_some(AmbientOcclusion {
+                    sampling: [OcclusionSampling::Full, OcclusionSampling::Shared][usize::from(outline)],
+                    ..AmbientOcclusion::new(2, 1.0)
+                }),
                 fog: fog.then_some(Fog { color: Vec3::ONE, density: 0.1 }),
                 outline: outline.then(|| Outline { nodes: vec![ball], color: Vec3::X, width: 2 }),
                 sight: if bounces == 1 { SightRays::default() } else { SightRays::all(bounces) },
