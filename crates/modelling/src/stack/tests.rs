@@ -324,7 +324,7 @@ proptest! {
         start in meshes(), stack in prop::collection::vec(stacked(), 0..4), other in stacked(), at in any::<prop::sample::Index>()
     ) {
         let mut mesh = editable(&start);
-        if mesh.vertex_count() % 2 == 0 {
+        if mesh.vertex_count().is_multiple_of(2) {
             add_affine_group(&mut mesh, "affine");
         }
         prop_assume!(mesh.set_modifiers(stack).is_ok());
