@@ -48,6 +48,9 @@ const ONLY_EDGES: &str = r#"{ "op": "delete", "what": "only_faces" }, { "op": "s
     { "op": "select_all" }"#;
 const HALF: &str = r#"{ "op": "select_within", "min": [-9, 0.001, -9] }, { "op": "delete", "what": "faces" },
     { "op": "select_all" }"#;
+const UPPER: &str = r#"{ "op": "select_within", "min": [-9, 0.001, -9] }"#;
+const SOLIDIFIED: &str = r#"{ "op": "add_modifier", "modifier": { "kind": "solidify" } }"#;
+const SMOOTHED: &str = r#"{ "op": "add_modifier", "modifier": { "kind": "subdivision", "levels": 1 } }"#;
 const FIRST: &str = r#"{ "op": "select", "elements": [0] }"#;
 const LOOP: &str = r#"{ "op": "select_loop" }"#;
 const LINKED: &str = r#"{ "op": "select_linked" }"#;
@@ -122,6 +125,14 @@ fn rows() -> Vec<Row> {
         row("tris_to_quads", &[SPHERE, FACES], json!({ "op": "tris_to_quads" })),
         row("dissolve_flat", &[GRID, FACES], json!({ "op": "dissolve_flat" })),
         row("duplicate", &[TORUS, FACES], json!({ "op": "duplicate" })),
+        row("separate", &[TORUS, FACES, UPPER], json!({ "op": "separate" })),
+        row(
+            "separate loose parts",
+            &[SPHERE, SPHERE_BESIDE, JOINED],
+            json!({ "op": "separate", "by": "loose_parts" }),
+        ),
+        row("apply_modifier, solidify", &[GRID, SOLIDIFIED], json!({ "op": "apply_modifier" })),
+        row("apply_modifier, subdivision", &[TORUS, SMOOTHED], json!({ "op": "apply_modifier" })),
         row("knife", &[GRID, FACES], json!({ "op": "knife", "strokes": [diagonal] })),
     ];
     rows.extend(["union", "difference", "intersection"].map(|operation| Row {
