@@ -181,8 +181,8 @@ fn numbers_in_square<S: Simd>([x, y]: [F32<S>; 2], side: usize) -> [usize; LANES
         |lane: usize| (y[lane] as usize % side) * side + x[lane] as usize % side,
     );
     let mut numbers = [0; LANES];
-    for (lane, place) in numbers.iter_mut().enumerate() {
-        *place = number(lane);
+    for (lane, own) in numbers.iter_mut().enumerate() {
+        *own = number(lane);
     }
     numbers
 }

@@ -305,8 +305,8 @@ mod tests {
             let view = SmallView::new(&projection, &matrix, size);
             let small = [view.width, view.height].map(f64::from);
             let pixel = [share[0] * small[0], share[1] * small[1]].map(f64::floor);
-            let place = pixel.map(|number| number as usize + REACH);
-            let point = view.positions(place, F32::splat(Fallback::new(), distance)).map(|axis| axis[0]);
+            let counted = pixel.map(|number| number as usize + REACH);
+            let point = view.positions(counted, F32::splat(Fallback::new(), distance)).map(|axis| axis[0]);
             let clip = matrix.project_point3(Vec3::from_array(point).as_dvec3());
             let found = [(1.0 + clip.x) / 2.0 * small[0], (1.0 - clip.y) / 2.0 * small[1]];
             for axis in 0..2 {
