@@ -162,8 +162,7 @@ impl OcclusionBuffer {
         let plane = dot(normal, points.position);
         let width = view.spread(-points.position[2]) * view.widest();
         let inverse = F32::splat(simd, 1.0 / OFF) / width;
-        let first = (row + REACH as f32) * stride as f32 + (column + REACH as f32);
-        let first: [i32; LANES] = first.to_int::<I32<S>>().into();
+        let first = indices([column, row], stride);
         let (mut sum, mut open) = (zero, zero);
         for (below, row_weight) in [(0, one - down), (1, down)] {
             for (beside, column_weight) in [(0, one - across), (1, across)] {
@@ -175,7 +174,7 @@ impl OcclusionBuffer {
                             simd,
                             lanes_of(
                                 #[inline(always)]
-                                |lane| values[first[lane] as usize + offset],
+                                |lane| values[first[lane] + offset],
                             ),
                         )
                     },
@@ -270,6 +269,21 @@ impl Surfaces {
     }
 }
 
+/// Where pixels are in a list of rows with empty pixels around them. Columns and rows are whole numbers from −1 on; in
+/// integers, because large images have more pixels than f32 has whole numbers.
+#[inline(always)]
+fn indices<S: Simd>([column, row]: [F32<S>; 2], stride: usize) -> [usize; LANES] {
+    let [columns, rows] = [column, row].each(
+        #[inline(always)]
+        |number| (number + REACH as f32).to_int::<I32<S>>(),
+    );
+    let numbers: [i32; LANES] = (rows * stride as i32 + columns).into();
+    numbers.each(
+        #[inline(always)]
+        |number| number as usize,
+    )
+}
+
 /// Eight values in a row.
 #[inline(always)]
 fn eight<S: Simd>(simd: S, values: &[f32], first: usize) -> F32<S> {
@@ -295,6 +309,15 @@ mod tests {
     }
 
     proptest! {
+        /// Rounded to f32, pixels of large images had the values of others.
+        #[test]
+        fn pixels_of_large_images_are_found(column in -1_i16..8192, row in -1_i16..8192, width in 8192_u16..9000) {
+            let pixel = [column, row].map(|number| F32::splat(Fallback::new(), f32::from(number)));
+            let [column, row] = [column, row].map(|number| (i32::from(number) + REACH as i32) as usize);
+            let expected = row * usize::from(width) + column;
+            prop_assert_eq!(indices(pixel, usize::from(width)), [expected; LANES]);
+        }
+
         /// By the projection matrix.
         #[test]
         fn pixels_lie_where_the_projection_puts_them(
