@@ -47,6 +47,7 @@
 mod attributes;
 mod builder;
 mod change;
+mod clustering;
 mod columns;
 mod deformed;
 mod edges;
@@ -69,6 +70,7 @@ mod welded_mesh;
 pub use attributes::{Attributes, Deltas, MorphTarget, SkinWeights};
 pub use builder::MeshBuilder;
 pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
+pub use clustering::ClusteredMesh;
 pub use columns::{EdgeMark, EditData, MeshColumns, VertexGroupData};
 pub use deformed::Deformed;
 pub use error::MeshError;
