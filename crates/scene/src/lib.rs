@@ -31,6 +31,7 @@
 mod animation;
 mod arena;
 mod check;
+mod coarse;
 mod display;
 mod effect;
 mod effect_settings;
@@ -68,6 +69,7 @@ mod work;
 pub use animation::{Animation, Channel, Curve, Interpolation, Property};
 pub use arena::{Arena, Id};
 pub use check::{Finding, Severity};
+pub use coarse::CoarseMeshWork;
 pub use display::Display;
 pub use effect::Effect;
 pub use effect_settings::{

@@ -29,8 +29,17 @@ struct Derived {
     used: OnceLock<Arc<Vec<bool>>>,
     bounds: OnceLock<Bounds3>,
     geometry: OnceLock<Arc<Geometry>>,
+    coarse: OnceLock<CoarseMesh>,
     /// What `geometry` is made of after a change. The lock is held only to take it out.
     outdated: Mutex<Option<Outdated>>,
+}
+
+/// A coarser mesh, which drafts show.
+#[derive(Debug)]
+pub(crate) struct CoarseMesh {
+    /// What the geometry is made of.
+    pub(crate) mesh: Mesh,
+    pub(crate) geometry: Arc<Geometry>,
 }
 
 /// What was known before one or several changes.
@@ -106,6 +115,32 @@ impl MeshAsset {
         made_once(&self.derived.geometry, || Arc::new(make()))
     }
 
+    /// The number of triangles of all faces: fewer by the faces without area.
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.mesh.corner_count() - 2 * self.mesh.face_count()
+    }
+
+    /// Whether it has no coarser mesh and no pose deforms it.
+    pub(crate) fn can_be_coarse(&self) -> bool {
+        let attributes = self.mesh.attributes();
+        self.coarse().is_none() && attributes.skin.is_none() && attributes.morph_targets.is_empty()
+    }
+
+    /// The coarser mesh, if it was made.
+    pub(crate) fn coarse(&self) -> Option<&CoarseMesh> {
+        self.derived.coarse.get()
+    }
+
+    /// Makes the coarser mesh of at most so many triangles for all clones; takes long. Nothing if there are no others.
+    pub(crate) fn make_coarse_for_clones(&self, most_triangles: usize) {
+        if Arc::strong_count(&self.derived) > 1 {
+            made_once(&self.derived.coarse, || {
+                let mesh = self.mesh.clustered(most_triangles).mesh;
+                CoarseMesh { geometry: Arc::new(Geometry::new(&mesh)), mesh }
+            });
+        }
+    }
+
     /// See [`Scene::change_mesh`](crate::Scene::change_mesh).
     pub(crate) fn change(&mut self, change: &MeshChange) -> Result<(), ChangeError> {
         change.check(&self.mesh)?;
@@ -114,6 +149,7 @@ impl MeshAsset {
         let bounds = inside.map(|bounds| self.bounds_with(bounds, change));
         let derived = Arc::make_mut(&mut self.derived);
         derived.bounds = bounds.map_or_else(OnceLock::new, OnceLock::from);
+        derived.coarse = OnceLock::new();
         let outdated = derived.take_outdated();
         let mut outdated = outdated.unwrap_or_else(|| Outdated {
             geometry: derived.geometry.take().filter(|geometry| geometry.can_follow()),
@@ -157,6 +193,8 @@ impl Clone for Derived {
             used: self.used.clone(),
             bounds: self.bounds.clone(),
             geometry: self.geometry.clone(),
+            // Only who is about to change is cloned.
+            coarse: OnceLock::new(),
             outdated: Mutex::new(outdated),
         }
     }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, is_mirroring};
+use trigon_mesh::Mesh;
 
 use crate::geometry::Geometry;
 use crate::mesh_asset::MeshAsset;
@@ -23,12 +24,20 @@ pub(crate) struct Shape {
     pub(crate) is_mirrored: bool,
     /// Whether a pose changed it.
     pub(crate) is_posed: bool,
+    /// Whether it is that of the coarser mesh.
+    pub(crate) is_coarse: bool,
 }
 
 impl Shape {
     fn new(geometry: Arc<Geometry>, placement: NodePlacement, is_posed: bool) -> Self {
         let NodePlacement { world, is_mirrored } = placement;
-        Self { geometry, world, is_mirrored, is_posed }
+        Self { geometry, world, is_mirrored, is_posed, is_coarse: false }
+    }
+
+    /// What its geometry is made of.
+    pub(crate) fn source<'a>(&self, asset: &'a MeshAsset) -> &'a Mesh {
+        let coarse = asset.coarse().filter(|_| self.is_coarse);
+        coarse.map_or(asset.mesh(), |coarse| &coarse.mesh)
     }
 
     pub(crate) fn placement(&self) -> NodePlacement {
@@ -45,6 +54,8 @@ pub(crate) struct Shapes(Vec<Option<Shape>>);
 pub(crate) enum Onlookers<'a> {
     /// The camera alone: poses beyond its view are not computed.
     Camera(&'a Eye),
+    /// The camera of a draft: coarser meshes replace those that have one.
+    Draft(&'a Eye),
     /// The camera, lamps, rays.
     All,
 }
@@ -86,6 +97,10 @@ fn shape(
     placement: NodePlacement,
     onlookers: Onlookers<'_>,
 ) -> Option<Shape> {
+    if let (Onlookers::Draft(_), Some(coarse)) = (onlookers, asset.coarse()) {
+        let shape = Shape::new(Arc::clone(&coarse.geometry), placement, false);
+        return Some(Shape { is_coarse: true, ..shape });
+    }
     let rest = Shape::new(Arc::clone(asset.geometry()), placement, false);
     let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
     // Joints may have moved the mesh elsewhere.
@@ -93,7 +108,7 @@ fn shape(
         world: pose.world,
         is_mirrored: is_mirroring(&pose.world.matrix3),
     });
-    if let (Onlookers::Camera(eye), false) = (onlookers, bend.is_morphed)
+    if let (Onlookers::Camera(eye) | Onlookers::Draft(eye), false) = (onlookers, bend.is_morphed)
         && !eye.may_see(&reach(&asset.bounds(), bend.palette()), &placement.world)
     {
         return None;

@@ -30,6 +30,22 @@ fn has_sight_rays(scene: &Scene, sight: SightRays) -> bool {
     }
 }
 
+/// Whether lamps or rays look at the scene, too.
+pub(crate) fn is_visible_from_elsewhere(scene: &Scene, settings: &RenderSettings) -> bool {
+    let effects = &settings.effects;
+    let rays = effects.ambient_occlusion.is_some() || has_sight_rays(scene, effects.sight);
+    rays || effects.shadows != Shadows::Off
+}
+
+/// The meshes of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MeshDetail {
+    /// The scene's.
+    Whole,
+    /// The coarser ones of those that have one.
+    Coarse,
+}
+
 /// The scene as one frame sees it: the camera, the settings, the shapes and the lights.
 pub(crate) struct PreparedScene<'s> {
     pub(crate) scene: &'s Scene,
@@ -48,7 +64,17 @@ pub(crate) struct PreparedScene<'s> {
 
 impl<'s> PreparedScene<'s> {
     pub(crate) fn new(scene: &'s Scene, camera: &'s Camera, settings: &'s RenderSettings) -> Self {
-        Self::through(None, scene, camera, settings)
+        Self::with_detail(MeshDetail::Whole, scene, camera, settings)
+    }
+
+    /// With coarser meshes, perhaps.
+    pub(crate) fn with_detail(
+        detail: MeshDetail,
+        scene: &'s Scene,
+        camera: &'s Camera,
+        settings: &'s RenderSettings,
+    ) -> Self {
+        Self::looking_through(None, detail, scene, camera, settings)
     }
 
     /// The scene as a lens in place of the camera's projection sees it, if there is one.
@@ -59,15 +85,26 @@ impl<'s> PreparedScene<'s> {
         settings: &'s RenderSettings,
     ) -> Self {
         let lens = lens.map(|lens| lens.for_image(settings.viewport()));
+        Self::looking_through(lens, MeshDetail::Whole, scene, camera, settings)
+    }
+
+    fn looking_through(
+        lens: Option<FisheyeLens>,
+        detail: MeshDetail,
+        scene: &'s Scene,
+        camera: &'s Camera,
+        settings: &'s RenderSettings,
+    ) -> Self {
         let placements = scene.visible_placements();
         let eye = match lens {
             None => Eye::new(camera, settings.aspect()),
             Some(_) => Eye::all_around(camera),
         };
-        let effects = &settings.effects;
-        let rays = effects.ambient_occlusion.is_some() || has_sight_rays(scene, effects.sight);
-        let all = rays || effects.shadows != Shadows::Off || lens.is_some();
-        let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
+        let onlookers = match detail {
+            _ if lens.is_some() || is_visible_from_elsewhere(scene, settings) => Onlookers::All,
+            MeshDetail::Whole => Onlookers::Camera(&eye),
+            MeshDetail::Coarse => Onlookers::Draft(&eye),
+        };
         let shapes = Shapes::new(scene, &placements, onlookers);
         let light_transforms = light_transforms(scene, &placements);
         let lights = Lights::gather(scene, &light_transforms, &eye, settings);

@@ -7,6 +7,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use trigon_math::{Mat3, Vec3, Vec4};
+use trigon_mesh::Mesh;
 use trigon_raster::{BlendMode, Culling, EdgeFlags};
 
 use super::looks::{LookKey, Looks, SharedLook};
@@ -71,6 +72,8 @@ struct DrawnObject<'s> {
     node: &'s Node,
     asset: &'s MeshAsset,
     geometry: &'s Geometry,
+    /// What the geometry is made of.
+    source: &'s Mesh,
     placement: Placement,
     /// For faces, and for edges on faces.
     marks: Option<Arc<MarkNumbers>>,
@@ -151,8 +154,8 @@ impl<'s> Composer<'s> {
                 false => shape.geometry.bounds().union(asset.bounds()),
             };
             let (index, placement) = (id.index() as u32, self.eye.placement(&shape.placement(), &bounds));
-            let (geometry, marks) = (&shape.geometry, self.marks(id));
-            let object = DrawnObject { id, index, node, asset, geometry, placement, marks };
+            let (geometry, source, marks) = (&shape.geometry, shape.source(asset), self.marks(id));
+            let object = DrawnObject { id, index, node, asset, geometry, source, placement, marks };
             self.object(&object, &mut draws, counts);
         }
         draws
@@ -224,7 +227,7 @@ impl<'s> Composer<'s> {
 
     /// The mesh edges of triangle sides, if some of them are marked.
     fn sides(&self, object: &DrawnObject<'s>, marks: &MarkNumbers) -> &'s [[u32; 3]] {
-        if marks.edges.is_empty() { &[] } else { object.geometry.side_edges(object.asset.mesh()) }
+        if marks.edges.is_empty() { &[] } else { object.geometry.side_edges(object.source) }
     }
 
     /// The marks of some triangles.
@@ -305,13 +308,13 @@ impl<'s> Composer<'s> {
         let material = &*self.displayed(object, run.slot);
         let bent = material.normal_map.filter(|_| self.shows_normal_map(material));
         let geometry = match &bent {
-            Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
+            Some(map) => object.geometry.with_tangents(object.source, map.binding.uv_set),
             None => object.geometry,
         };
         let mut bound = BoundMaterial::new(material, &geometry.columns, &self.context());
         bound.place_glass(self.lighting, object.index, run.slot);
         let geometry = match bound.illumination {
-            Illumination::AtVertices => geometry.with_vertex_normals(object.asset.mesh()),
+            Illumination::AtVertices => geometry.with_vertex_normals(object.source),
             _ => geometry,
         };
         SharedLook::new(self.triangle_run(object, geometry, run), material, bound, &self.context())
@@ -417,7 +420,7 @@ impl<'s> Composer<'s> {
 
     /// Which edges of the triangles are edges of faces. (Tangents change none.)
     fn edge_flags(&self, object: &DrawnObject<'s>) -> &'s [EdgeFlags] {
-        object.geometry.edge_flags(object.asset.mesh())
+        object.geometry.edge_flags(object.source)
     }
 
     fn hidden_line<'c>(&'c self, object: &DrawnObject<'s>) -> Box<dyn Record + 'c> {

@@ -28,7 +28,7 @@ use crate::outputs;
 use crate::outputs::Needed;
 use crate::placement::DepthToDistance;
 use crate::plan::EffectPlan;
-use crate::prepare::{Backdrop, PreparedScene};
+use crate::prepare::{Backdrop, MeshDetail, PreparedScene};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 
@@ -58,6 +58,7 @@ pub(super) struct Request<'r> {
     pub(super) camera: &'r Camera,
     pub(super) settings: &'r RenderSettings,
     pub(super) cancel: Option<&'r Cancel>,
+    pub(super) detail: MeshDetail,
 }
 
 impl Engine {
@@ -136,8 +137,8 @@ impl Engine {
         sample: [f64; 2],
         free: &mut ReusableFrame,
     ) -> Result<(), RenderError> {
-        let Request { scene, camera, settings, cancel } = request;
-        let prepared = PreparedScene::new(scene, camera, settings);
+        let Request { scene, camera, settings, cancel, detail } = request;
+        let prepared = PreparedScene::with_detail(detail, scene, camera, settings);
         let plan = EffectPlan::of_prepared(&prepared);
         let mut counts = Counts::default();
         let apart = needs_id_pass(settings, &plan);

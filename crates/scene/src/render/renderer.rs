@@ -13,6 +13,7 @@ use crate::effect::Effect;
 use crate::effects::EffectCounts;
 use crate::frame::Frame;
 use crate::plan::EffectPlan;
+use crate::prepare::MeshDetail;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
@@ -96,7 +97,8 @@ impl Renderer {
         camera: &Camera,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw(Request { scene, camera, settings: &self.settings, cancel: None }, frame)
+        let settings = &self.settings;
+        self.engine.draw(Request { scene, camera, settings, cancel: None, detail: MeshDetail::Whole }, frame)
     }
 
     /// Draws what a fisheye lens sees of the scene, with the same outputs. A ray of the lens through every sample finds the
@@ -145,7 +147,8 @@ impl Renderer {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw(Request { scene, camera, settings: &self.settings, cancel: Some(cancel) }, frame)
+        let (settings, cancel) = (&self.settings, Some(cancel));
+        self.engine.draw(Request { scene, camera, settings, cancel, detail: MeshDetail::Whole }, frame)
     }
 
     /// As [`render`](Self::render), or with `cancel` as [`render_cancellable`](Self::render_cancellable), into a
@@ -176,7 +179,44 @@ impl Renderer {
         camera: &Camera,
         cancel: Option<&Cancel>,
     ) -> Result<Arc<Frame>, RenderError> {
-        self.engine.draw_shared(Request { scene, camera, settings: &self.settings, cancel })
+        let settings = &self.settings;
+        self.engine.draw_shared(Request { scene, camera, settings, cancel, detail: MeshDetail::Whole })
+    }
+
+    /// As [`render_shared`](Self::render_shared), for an image that shows while something moves: meshes are replaced by
+    /// the coarser ones that [`Scene::coarse_mesh_work`] has made, if the settings
+    /// [allow](Scene::allows_coarse_meshes) that. Shapes differ by the error of
+    /// [`Mesh::clustered`](crate::mesh::Mesh::clustered) at most, and so does the depth. No other image shows coarser meshes.
+    ///
+    /// ```
+    /// use trigon_scene::mesh::primitives;
+    /// use trigon_scene::{Material, Renderer, Scene};
+    ///
+    /// let mut scene = Scene::new();
+    /// scene.add_object("torus", primitives::torus(1.0, 0.4, 200, 100), Material::default());
+    /// scene.clone().coarse_mesh_work(5_000).expect("it has 40,000 triangles").run();
+    ///
+    /// let mut renderer = Renderer::builder().size(64, 48).build();
+    /// let camera = scene.overview(renderer.settings().aspect());
+    /// renderer.render_draft(&scene, &camera, None)?;
+    /// assert!(renderer.stats().primitives <= 5_000);
+    /// renderer.render_shared(&scene, &camera, None)?;
+    /// assert_eq!(renderer.stats().primitives, 40_000);
+    /// # Ok::<(), trigon_scene::RenderError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`render_shared`](Self::render_shared).
+    pub fn render_draft(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        cancel: Option<&Cancel>,
+    ) -> Result<Arc<Frame>, RenderError> {
+        let settings = &self.settings;
+        let is_allowed = scene.allows_coarse_meshes(settings);
+        let detail = if is_allowed { MeshDetail::Coarse } else { MeshDetail::Whole };
+        self.engine.draw_shared(Request { scene, camera, settings, cancel, detail })
     }
 
     /// The parts in which the last frame of [`render_shared`](Self::render_shared) may differ from an earlier one, for
