@@ -89,9 +89,9 @@ impl Shown {
     pub(crate) fn snap(&self, at: DVec2, radius: f64, area: Area, scene: &Scene) -> Option<Snap> {
         let size = Viewport { width: self.frame.width, height: self.frame.height };
         let is_whole = size == area.size && self.views.is_one();
-        // An image without ids is not of the scene.
-        let shows_scene = self.frame.object_ids.is_some();
-        (is_whole && area.contains(at) && shows_scene)
+        // An image without ids is not of the scene, or not exact.
+        let is_exact = self.frame.object_ids.is_some();
+        (is_whole && area.contains(at) && is_exact)
             .then(|| Picker::new(scene, &self.views.main, &self.frame).snap(at - area.origin(), radius))
             .flatten()
     }

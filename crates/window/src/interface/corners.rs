@@ -25,7 +25,10 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
         let mut lines = stage.overlay.lines(corner).to_vec();
         match corner {
             Corner::TopRight => lines.extend(times(context, stage)),
-            Corner::BottomRight => lines.extend(stage.progress().map(|of| progress(of, stage.percent()))),
+            Corner::BottomRight => {
+                lines.extend(stage.report().is_coarse.then(|| String::from("draft with coarser meshes")));
+                lines.extend(stage.progress().map(|of| progress(of, stage.percent())));
+            }
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}
         }

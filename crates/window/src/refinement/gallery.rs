@@ -78,7 +78,8 @@ impl Gallery {
 
     /// The image for picking in the displayed one: itself, or one that it was made from.
     pub(crate) fn picked(&self, wanted: Wanted) -> Option<Shown> {
-        let shown = self.shown(wanted).filter(|frame| frame.object_ids.is_some());
+        // Drafts with coarser meshes have depths, but no ids.
+        let shown = self.shown(wanted).filter(|frame| frame.depth.is_some());
         let frame = Arc::clone(shown.or(self.settings.as_ref())?);
         Some(Shown { frame, views: self.views.clone()?, nodes: Arc::clone(&self.nodes) })
     }

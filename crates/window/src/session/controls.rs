@@ -161,6 +161,11 @@ impl Session<'_> {
         let Some(action) = self.stage.keymap.find_click(button, modifiers) else { return };
         match action {
             ClickAction::OpenMenu => self.stage.open_menu(Some(at)),
+            ClickAction::Select if self.stage.report().is_coarse => {
+                self.stage
+                    .overlay
+                    .notify("Not selected: only a draft of coarser meshes was shown; click again");
+            }
             ClickAction::Select => {
                 self.stage.selection = self.stage.pick(at).map(|(hit, _)| hit.node);
                 commands::announce_selection(&mut self.stage);

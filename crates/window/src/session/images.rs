@@ -33,7 +33,7 @@ impl Session<'_> {
     }
 
     fn window_finished(&mut self, quality: Quality, finished: Finished) {
-        let Finished { views, took, pixels, stages, product, redrawn, .. } = finished;
+        let Finished { views, took, pixels, stages, product, is_coarse, redrawn, .. } = finished;
         match product {
             Ok(Product::Frame(frame)) => {
                 self.redrawn = redrawn;
@@ -42,7 +42,12 @@ impl Session<'_> {
                 self.gallery.add(quality, Shown { frame, views, nodes }, took);
                 self.drawn_subject.clone_from(&self.subject);
                 if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
-                    self.stage.set_report(FrameReport { render: took, stages, ..self.stage.report() });
+                    self.stage.set_report(FrameReport {
+                        render: took,
+                        stages,
+                        is_coarse,
+                        ..self.stage.report()
+                    });
                 }
             }
             Ok(Product::Comparison(compared)) => {

@@ -40,6 +40,8 @@ pub struct FrameReport {
     pub present: Duration,
     /// The stages of `render`. Times of stages in tiles are sums over all threads.
     pub stages: StageTimes,
+    /// Whether it is a draft with coarser meshes.
+    pub is_coarse: bool,
 }
 
 /// Whether something is visible.
@@ -360,8 +362,8 @@ impl Stage {
     /// It is looked up in that image, in constant time. While something moves, that is a draft,
     /// which may be older than scene and camera: then the result is what the draft shows, seen by
     /// the draft's camera. A node that was removed since is not found, and for one whose mesh was
-    /// replaced the face is `None`. `None` for background, outside the window, and before there is
-    /// an image.
+    /// replaced the face is `None`. `None` for background, outside the window, before there is
+    /// an image, and while a [draft with coarser meshes](FrameReport::is_coarse) is on screen, which has no ids.
     #[must_use]
     pub fn pick(&self, at: DVec2) -> Option<(Hit, DVec3)> {
         self.shown.as_ref()?.pick(at, self.image_area(), &self.scene)

@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-use super::{Drawing, Job, Purpose, Worker};
+use super::{CoarseMeshMaker, Drawing, Job, Purpose, Worker};
 use trigon_scene::Cancel;
 
 /// Shut at first, and open for good once it is opened. Clones are the same gate.
@@ -37,7 +37,8 @@ impl Gate {
             let _ = ring.send(());
         };
         let worker = Worker::of_runs(ring, || {
-            let (mut drawing, gate) = (Drawing::new(|| Duration::ZERO), self.clone());
+            let (mut drawing, gate) =
+                (Drawing::new(CoarseMeshMaker::Thread(None), || Duration::ZERO), self.clone());
             move |job: Job, cancel: &Cancel| {
                 if holds(job.purpose) {
                     gate.pass();

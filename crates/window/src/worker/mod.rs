@@ -1,5 +1,7 @@
 //! Draws the scene on worker threads, so that the window never waits for an image.
 
+mod coarse;
+
 use std::num::NonZeroUsize;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
@@ -9,6 +11,7 @@ use std::time::Duration;
 use trigon_camera::Camera;
 use trigon_scene::{Cancel, Frame, Outputs, Rect, RenderError, RenderSettings, Renderer, Scene, StageTimes};
 
+use self::coarse::{CoarseMeshMaker, coarse_settings, makes_coarse};
 use crate::drawer::Drawer;
 use crate::pacing::Quality;
 use crate::panes::Views;
@@ -80,6 +83,8 @@ pub(crate) struct Finished {
     /// Of the last view.
     pub(crate) stages: StageTimes,
     pub(crate) product: Result<Product, Unfinished>,
+    /// Whether coarser meshes were drawn.
+    pub(crate) is_coarse: bool,
     /// The difference between an image and the last one, if it is known.
     pub(crate) redrawn: Option<Redrawn>,
 }
@@ -160,6 +165,7 @@ struct Drawing {
     scene: Scene,
     /// The last image.
     last: Weak<Frame>,
+    coarse_meshes: CoarseMeshMaker,
     /// Returns the time since any fixed moment.
     clock: Box<dyn Fn() -> Duration + Send>,
 }
@@ -178,7 +184,7 @@ impl Worker {
         clock: impl Fn() -> Duration + Clone + Send + 'static,
     ) -> Self {
         Self::of_runs(ring, || {
-            let mut drawing = Drawing::new(clock.clone());
+            let mut drawing = Drawing::new(CoarseMeshMaker::Thread(None), clock.clone());
             move |job, cancel: &Cancel| drawing.run(job, cancel)
         })
     }
@@ -256,6 +262,7 @@ impl Worker {
                 pixels: Duration::ZERO,
                 stages: StageTimes::default(),
                 product: Err(Unfinished::Cancelled),
+                is_coarse: false,
                 redrawn: None,
             });
         }
@@ -295,7 +302,10 @@ impl Holder {
 
 impl RenderThread {
     fn of_caller() -> Self {
-        Self::Caller { drawing: Box::new(Drawing::new(|| Duration::ZERO)), finished: None }
+        Self::Caller {
+            drawing: Box::new(Drawing::new(CoarseMeshMaker::Caller, || Duration::ZERO)),
+            finished: None,
+        }
     }
 
     /// `None` if no threads can be created.
@@ -342,11 +352,11 @@ impl RenderThread {
 }
 
 impl Drawing {
-    fn new(clock: impl Fn() -> Duration + Send + 'static) -> Self {
+    fn new(coarse_meshes: CoarseMeshMaker, clock: impl Fn() -> Duration + Send + 'static) -> Self {
         let mut renderer = Renderer::builder().build();
         // From these times the size of drafts follows.
         renderer.time_stages();
-        Self { renderer, scene: Scene::new(), last: Weak::new(), clock: Box::new(clock) }
+        Self { renderer, scene: Scene::new(), last: Weak::new(), coarse_meshes, clock: Box::new(clock) }
     }
 
     fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
@@ -355,14 +365,22 @@ impl Drawing {
             Task::Draw { drawer: None, settings, .. } => Some(settings.threads),
             _ => None,
         };
-        let count = views.count();
+        let (count, mut is_coarse) = (views.count(), false);
         let product = match task {
-            Task::Draw { scene, settings, drawer } => {
+            Task::Draw { scene, mut settings, drawer } => {
                 // Also for a cancelled image: the next update relies on it.
                 scene.apply(&mut self.scene);
                 let Self { renderer, scene, .. } = self;
+                if let (None, Some(coarse)) = (&drawer, coarse_settings(purpose, scene, &settings)) {
+                    (*settings, is_coarse) = (coarse, true);
+                }
+                let makes_coarse = makes_coarse(purpose, scene, &settings);
                 let drawn = views.draw(*settings, |camera, settings| {
                     match (&drawer, purpose) {
+                        (None, Purpose::Window(_)) if is_coarse => {
+                            *renderer.settings_mut() = settings;
+                            renderer.render_draft(scene, camera, Some(cancel)).map_err(Unfinished::from)
+                        }
                         (None, Purpose::Window(_)) => {
                             *renderer.settings_mut() = settings;
                             renderer.render_shared(scene, camera, Some(cancel)).map_err(Unfinished::from)
@@ -376,6 +394,9 @@ impl Drawing {
                             .map(Arc::new),
                     }
                 });
+                if makes_coarse && drawn.is_ok() {
+                    self.coarse_meshes.make(scene);
+                }
                 drawn.map(Product::Frame)
             }
             Task::Compare([found, right]) => compare(&found, &right, cancel)
@@ -393,7 +414,7 @@ impl Drawing {
             Ok(Product::Frame(frame)) => self.redrawn(frame),
             _ => None,
         };
-        Finished { purpose, views, took, pixels, stages, product, redrawn }
+        Finished { purpose, views, took, pixels, stages, product, is_coarse, redrawn }
     }
 
     /// The difference between an image and the last one, which it replaces.

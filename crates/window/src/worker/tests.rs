@@ -296,6 +296,7 @@ fn what_a_dropped_worker_was_drawing_is_cancelled() {
                     pixels: Duration::ZERO,
                     stages: StageTimes::default(),
                     product,
+                    is_coarse: false,
                     redrawn: None,
                 }
             }

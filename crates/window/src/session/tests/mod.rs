@@ -1,6 +1,7 @@
 //! A window's life without a window.
 
 mod beside;
+mod coarse;
 mod first_contact;
 mod offers;
 mod ownership;
