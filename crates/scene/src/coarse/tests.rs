@@ -70,7 +70,7 @@ fn exact_images_have_no_coarser_meshes() {
         &|of| of.marks.faces = vec![faces.clone()],
         &|of| of.effects.outline = Some(Outline { nodes: vec![ring], color: Vec3::X, width: 2 }),
         &|of| of.effects.shadows = Shadows::Maps { resolution: 64 },
-        &|of| of.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 2, distance: 1.0 }),
+        &|of| of.effects.ambient_occlusion = Some(AmbientOcclusion::new(2, 1.0)),
     ];
     for (number, change) in changes.into_iter().enumerate() {
         let mut settings = settings();
