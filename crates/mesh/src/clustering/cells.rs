@@ -3,7 +3,7 @@
 use trigon_math::DVec3;
 
 use super::SourceTriangles;
-use super::grid::{Grid, NumberedCells};
+use super::grid::{CellGrid, NumberedCells};
 
 /// No element.
 const NONE: u32 = u32::MAX;
@@ -51,7 +51,7 @@ struct Survivor {
 
 /// A corner of what remains.
 #[derive(Clone, Copy)]
-pub(super) struct Corner {
+pub(super) struct MovedCorner {
     /// The corner of the source that it was.
     pub(super) own: u32,
     /// The corner of the source at the vertex that it has now.
@@ -64,13 +64,13 @@ pub(super) struct Remaining {
     /// The corner of the source whose position each vertex has.
     pub(super) vertices: Vec<u32>,
     pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) corners: Vec<[Corner; 3]>,
+    pub(super) corners: Vec<[MovedCorner; 3]>,
     /// The triangle of the source that each triangle was.
     pub(super) sources: Vec<u32>,
 }
 
 impl Cells {
-    pub(super) fn of(source: &SourceTriangles<'_>, grid: &Grid) -> Self {
+    pub(super) fn of(source: &SourceTriangles<'_>, grid: &CellGrid) -> Self {
         let mut set = grid.no_cells();
         source.corners().flatten().for_each(|corner| set.insert(grid.cell(source.position(corner))));
         let numbers = set.numbered();
@@ -85,12 +85,12 @@ impl Cells {
         cells
     }
 
-    fn number(&self, source: &SourceTriangles<'_>, grid: &Grid, corner: u32) -> usize {
+    fn number(&self, source: &SourceTriangles<'_>, grid: &CellGrid, corner: u32) -> usize {
         self.numbers.number(grid.cell(source.position(corner)))
     }
 
     /// The triangles that remain. They are sorted by their cells, so that neighbours are near each other in memory.
-    pub(super) fn remaining(mut self, source: &SourceTriangles<'_>, grid: &Grid) -> Remaining {
+    pub(super) fn remaining(mut self, source: &SourceTriangles<'_>, grid: &CellGrid) -> Remaining {
         let survivors = self.survivors(source, grid);
         let mut remaining = Remaining::default();
         let mut vertices = vec![NONE; self.cells.len()];
@@ -100,7 +100,7 @@ impl Cells {
             let corners = [0, 1, 2].map(|i| {
                 let cell = &mut self.cells[numbers[i]];
                 cell.is_covered = true;
-                Corner { own: own[i], of_cell: cell.nearest.corner }
+                MovedCorner { own: own[i], of_cell: cell.nearest.corner }
             });
             for (number, corner) in numbers.into_iter().zip(&corners) {
                 if vertices[number] == NONE {
@@ -116,21 +116,25 @@ impl Cells {
         for triangle in retained {
             let own = source.corners_of(triangle);
             let vertices = own.map(|corner| remaining.push_vertex(corner));
-            remaining.push(triangle, vertices, own.map(|corner| Corner { own: corner, of_cell: corner }));
+            remaining.push(
+                triangle,
+                vertices,
+                own.map(|corner| MovedCorner { own: corner, of_cell: corner }),
+            );
         }
         remaining
     }
 
     /// Finds the vertices and the largest triangles of the cells, and the triangles with corners in three of them: the
     /// first of those that are alike.
-    fn survivors(&mut self, source: &SourceTriangles<'_>, grid: &Grid) -> Vec<Survivor> {
+    fn survivors(&mut self, source: &SourceTriangles<'_>, grid: &CellGrid) -> Vec<Survivor> {
         let mut survivors = Vec::new();
         for (triangle, corners) in (0..).zip(source.corners()) {
             let points = corners.map(|corner| source.position(corner).as_dvec3());
             let numbers = corners.map(|corner| self.number(source, grid, corner));
             let squared_area = (points[1] - points[0]).cross(points[2] - points[0]).length_squared();
-            for i in 0..3 {
-                self.cells[numbers[i]].add(corners[i], points[i], Largest { triangle, squared_area });
+            for ((number, corner), point) in numbers.into_iter().zip(corners).zip(points) {
+                self.cells[number].add(corner, point, Largest { triangle, squared_area });
             }
             let [a, b, c] = numbers.map(|number| number as u32);
             if a != b && b != c && c != a {
@@ -172,7 +176,7 @@ impl Remaining {
         self.vertices.len() as u32 - 1
     }
 
-    fn push(&mut self, source: u32, triangle: [u32; 3], corners: [Corner; 3]) {
+    fn push(&mut self, source: u32, triangle: [u32; 3], corners: [MovedCorner; 3]) {
         self.sources.push(source);
         self.triangles.push(triangle);
         self.corners.push(corners);

@@ -14,7 +14,7 @@ const FINEST: [u32; 4] = [512, 430, 362, 304];
 
 /// A grid of cubic cells around a mesh.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
+pub(super) struct CellGrid {
     min: DVec3,
     /// The longest side of the mesh.
     size: f64,
@@ -26,7 +26,7 @@ pub(super) struct Grid {
     level: u32,
 }
 
-impl Grid {
+impl CellGrid {
     /// The finest grid that leaves at most so many triangles, at least one.
     pub(super) fn with_at_most(source: &SourceTriangles<'_>, most: usize) -> Self {
         let points = source.corners().flatten().map(|corner| source.position(corner).as_dvec3());

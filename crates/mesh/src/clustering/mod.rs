@@ -16,8 +16,8 @@ mod grid;
 use trigon_math::Vec3;
 
 use crate::{Attributes, Mesh, MeshBuilder, Triangulation};
-use cells::{Cells, Corner, Remaining};
-use grid::Grid;
+use cells::{Cells, MovedCorner, Remaining};
+use grid::CellGrid;
 
 /// A corner takes the normal of its cell's vertex, so that neighbours share it, unless the cosine of the angle between
 /// the two is less: then an edge or another side lies in the cell.
@@ -25,6 +25,7 @@ const SAME_SIDE: f32 = 0.5;
 
 /// A coarser mesh, and how far it is from the one that it was made from.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ClusteredMesh {
     /// Triangles, with the normals, tangents, texture coordinates, colours, material slots and smoothness of those that
     /// they were made from. No loose edges or points, joints or morph targets.
@@ -51,7 +52,7 @@ impl Mesh {
     #[must_use]
     pub fn clustered(&self, most_triangles: usize) -> ClusteredMesh {
         let source = SourceTriangles::of(self);
-        let grid = Grid::with_at_most(&source, most_triangles.max(1));
+        let grid = CellGrid::with_at_most(&source, most_triangles.max(1));
         let mesh = Cells::of(&source, &grid).remaining(&source, &grid).mesh(&source);
         ClusteredMesh { mesh, error: grid.diagonal() }
     }
@@ -114,7 +115,7 @@ impl Remaining {
         let corners = self.corners.as_flattened();
         Attributes {
             corner_normals: attributes.corner_normals.as_ref().map(|normals| {
-                let normal = |corner: &Corner| shared_normal(normals, corner);
+                let normal = |corner: &MovedCorner| shared_normal(normals, corner);
                 corners.iter().map(normal).collect()
             }),
             corner_tangents: attributes.corner_tangents.as_ref().map(|of| own_values(of, corners)),
@@ -131,11 +132,11 @@ impl Remaining {
     }
 }
 
-fn own_values<T: Copy>(values: &[T], corners: &[Corner]) -> Vec<T> {
+fn own_values<T: Copy>(values: &[T], corners: &[MovedCorner]) -> Vec<T> {
     corners.iter().map(|corner| values[corner.own as usize]).collect()
 }
 
-fn shared_normal(normals: &[Vec3], corner: &Corner) -> Vec3 {
+fn shared_normal(normals: &[Vec3], corner: &MovedCorner) -> Vec3 {
     let [own, shared] = [corner.own, corner.of_cell].map(|corner| normals[corner as usize]);
     let is_same_side = own.dot(shared) > SAME_SIDE * own.length() * shared.length();
     if is_same_side { shared } else { own }
