@@ -7,8 +7,8 @@ use trigon_scene::{Outputs, RenderSettings, Scene};
 use crate::pacing::Quality;
 use crate::worker::Purpose;
 
-/// About as many triangles as fit into a draft's budget of 33 ms on two slow cores (`docs/performance.md`). Scenes of more
-/// than twice as many get coarser meshes. It is a count, not a time, so that whether a draft shows them does not depend
+/// A million triangles take 31.5 ms on one core of a server (W2 in `docs/performance.md`), and a draft may take 33. Scenes
+/// of more than twice as many get coarser meshes. It is a count, not a time, so that whether a draft shows them does not depend
 /// on how busy the machine is. In tests small scenes are large.
 const DRAFT_TRIANGLES: usize = if cfg!(test) { 4_000 } else { 1_000_000 };
 
