@@ -21,13 +21,14 @@ mod sets;
 
 use clap::Parser;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x8};
+use fearless_simd::{Simd, f32x8};
 use sets::{Query, Set};
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use trigon_math::{Bvh, Ray, Rays, Vec3};
+use trigon_math::simd::Token;
+use trigon_math::{Bvh, Ray, Rays, Vec3, at_level};
 use trigon_raster::simd::LANES;
 
 /// Time rays through four scenes, or write them.
@@ -162,7 +163,7 @@ fn seconds(bvh: &Bvh, set: &Set, repetitions: usize, hits: &mut [Hit]) -> f64 {
 }
 
 fn ask(bvh: &Bvh, is_any: bool, queries: &[Query], hits: &mut [Hit]) {
-    dispatch!(Level::new(), simd => for (queries, hits) in queries.chunks(LANES).zip(hits.chunks_mut(LANES)) {
+    at_level!(Token::best(), simd => for (queries, hits) in queries.chunks(LANES).zip(hits.chunks_mut(LANES)) {
         ask_eight(simd, bvh, is_any, queries, hits);
     });
 }
