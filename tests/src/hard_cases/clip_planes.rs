@@ -250,8 +250,15 @@ fn planes_that_are_given_stay() {
     let mut scene = Scene::new();
     ball(&mut scene, "ball", DVec3::NEG_Z * 2.0, 0.5);
     let camera = Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y).with_projection(perspective(4.0));
-    let ids = draw(&scene, &camera).object_ids.expect("asked for");
-    assert!(ids.iter().all(|&id| id == u32::MAX), "a near plane of 4 m hides a ball at 2 m");
+    let seen = |near: f64| {
+        let ids = draw(&scene, &camera.with_projection(perspective(near))).object_ids.expect("asked for");
+        ids.iter().filter(|&&id| id == 0).count()
+    };
+    assert_eq!(seen(4.0), 0, "a near plane of 4 m hides a ball at 2 m");
+    // A circle of half of 0.5/√3.75 of the image's height over tan 0.4, that is 11 pixels. The plane through the
+    // ball's middle leaves its back, a circle of half of 0.5/2 of that: 10.6 pixels.
+    let (whole, back) = (seen(1.0), seen(2.0));
+    assert!((330..430).contains(&whole) && (300..whole).contains(&back), "{whole} and {back} pixels");
     let bounds = Bounds3 { min: DVec3::splat(-9.0), max: DVec3::splat(9.0) };
     let wide = camera.with_clip_planes(&bounds);
     assert_eq!(wide.with_projection(camera.projection), camera, "only the planes change");

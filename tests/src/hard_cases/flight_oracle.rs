@@ -176,18 +176,23 @@ impl Lens {
 /// Where a node is: its own map within those of the nodes that it hangs on.
 fn in_world(scene: &Scene, id: NodeId) -> DAffine3 {
     let node = scene.node(id).expect("it is there");
-    let own = match node.transform {
-        Transform::Affine(affine) => affine,
-        Transform::Decomposed { translation, rotation, scale } => {
-            let [x, y, z] = axes(rotation);
-            DAffine3 { matrix3: DMat3::from_cols(x * scale.x, y * scale.y, z * scale.z), translation }
-        }
-    };
+    let own = own_map(&node.transform);
     let Some(parent) = node.parent() else { return own };
     let outer = in_world(scene, parent);
     DAffine3 {
         matrix3: outer.matrix3 * own.matrix3,
         translation: outer.matrix3 * own.translation + outer.translation,
+    }
+}
+
+/// The map of a node's own numbers.
+pub(crate) fn own_map(transform: &Transform) -> DAffine3 {
+    match *transform {
+        Transform::Affine(affine) => affine,
+        Transform::Decomposed { translation, rotation, scale } => {
+            let [x, y, z] = axes(rotation);
+            DAffine3 { matrix3: DMat3::from_cols(x * scale.x, y * scale.y, z * scale.z), translation }
+        }
     }
 }
 

@@ -6,11 +6,13 @@ use trigon_camera::{Camera, Projection};
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, SkinWeights, primitives};
 use trigon_scene::{
-    AlphaMode, Frame, Light, Material, MetallicRoughness, Node, Outputs, RenderSettings, Scene, Shading,
-    ShadingModel, Skin, Style, Transform, render,
+    AlphaMode, Frame, Light, Material, MetallicRoughness, Node, Outputs, RenderSettings, Renderer, Scene,
+    Shading, ShadingModel, Skin, Style, Transform, render,
 };
 
-use super::flight::check_numbers;
+use super::flight::{check_ids, check_numbers};
+use super::flight_oracle::Oracle;
+use super::flight_scenes::in_triangles;
 use crate::effort::cases;
 
 /// f32 of every kind.
@@ -141,6 +143,41 @@ fn scene(mesh: Mesh, transform: Transform, material: Material, lamp: Light) -> S
     scene
 }
 
+/// How far ahead of the eye the plate is, in metres.
+const PLATE: f64 = 0.5;
+
+/// A plate with sound numbers before the eye, over the middle of the image; its id.
+fn add_plate(scene: &mut Scene, camera: &Camera) -> u32 {
+    let node = scene.add_object("plate", primitives::cube(1.0), Material::from_color(Vec3::ONE));
+    let [size, thickness] = [0.2, 1e-3];
+    let ahead = camera.orientation * DVec3::NEG_Z;
+    scene.node_mut(node).expect("just added").transform = Transform::from_scale_rotation_translation(
+        DVec3::new(size, size, thickness),
+        camera.orientation,
+        camera.position + ahead * (PLATE + thickness / 2.0),
+    );
+    node.index() as u32
+}
+
+/// The pixels in the middle show the plate, or something of any numbers that is nearer.
+fn check_plate(frame: &Frame, plate: u32) {
+    let (ids, depths) =
+        (frame.object_ids.as_ref().expect("asked for"), frame.depth.as_ref().expect("asked for"));
+    let [width, height] = [frame.width, frame.height].map(|size| size as usize);
+    for at in
+        [height / 2 - 1, height / 2].iter().flat_map(|y| [y * width + width / 2 - 1, y * width + width / 2])
+    {
+        let (id, depth) = (ids[at], f64::from(depths[at]));
+        // Depth is rounded to f32 as 0.1 over itself, and the plate's corners are.
+        let error = (depth - PLATE).abs();
+        assert!(id != plate || error < 1e-6, "the plate is seen at {depth}");
+        assert!(
+            id == plate || (depth > 0.0 && depth < PLATE),
+            "node {id} is seen at {depth}, behind the plate"
+        );
+    }
+}
+
 proptest! {
     #![proptest_config(cases(256))]
 
@@ -151,10 +188,12 @@ proptest! {
     ) {
         let [intensity, range, red, blue] = lamp;
         let lamp = Light { color: Vec3::new(red, 1.0, blue), range, ..Light::point(intensity) };
-        let scene = scene(mesh, transform, material, lamp);
+        let mut scene = scene(mesh, transform, material, lamp);
         let camera = Camera::look_at(DVec3::new(2.0, 1.5, 3.0), DVec3::ZERO, DVec3::Y);
+        let plate = add_plate(&mut scene, &camera);
         let frame = render(&scene, &camera, &everything(style, shading, of_blended)).expect("in range");
         check_numbers(&frame);
+        check_plate(&frame, plate);
     }
 
     /// Nor in a camera, whose fields are open to everybody.
@@ -172,13 +211,21 @@ proptest! {
             projection: projection.expect("in range"),
         };
         let settings = everything(Style::SurfaceWithEdges, ShadingModel::Phong, false);
-        check_numbers(&render(&scene, &camera, &settings).expect("in range"));
+        let mut renderer = Renderer::new(settings);
+        check_numbers(&renderer.render(&scene, &camera).expect("in range"));
+        // And it leaves no trace: the next camera shows the cube.
+        let sound = Camera::look_at(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y);
+        let next = renderer.render(&scene, &sound).expect("in range");
+        check_numbers(&next);
+        let middle = (next.height / 2 * next.width + next.width / 2) as usize;
+        prop_assert_eq!(next.object_ids.as_ref().map(|ids| ids[middle]), Some(0), "the cube is in the middle");
+        prop_assert!(next == render(&scene, &sound, renderer.settings()).expect("in range"), "as by a new renderer");
     }
 }
 
-/// A cube whose corners have these weights, which follow a joint that has moved.
+/// A cube whose corners have these weights, on joints a metre to the right and a metre to the left.
 fn followed(weights: &[f32]) -> Frame {
-    let mut mesh = primitives::cube(1.0);
+    let mut mesh = in_triangles(&primitives::cube(1.0));
     let joints = [0_u16, 1].repeat(8);
     let skin = SkinWeights::new(2, joints, weights.repeat(8)).expect("two for each of eight");
     mesh.set_attributes(Attributes { skin: Some(skin), ..Attributes::default() }).expect("eight vertices");
@@ -188,31 +235,39 @@ fn followed(weights: &[f32]) -> Frame {
     let skin = scene.skins.insert(Skin { joints: joints.to_vec(), ..Skin::default() });
     scene.node_mut(node).expect("just added").skin = Some(skin);
     let settings = everything(Style::Surface, ShadingModel::Phong, false);
-    render(&scene, &Camera::look_at(DVec3::Z * 6.0, DVec3::ZERO, DVec3::Y), &settings).expect("in range")
+    render(&scene, &from_front(), &settings).expect("in range")
+}
+
+fn from_front() -> Camera {
+    Camera::look_at(DVec3::Z * 6.0, DVec3::ZERO, DVec3::Y)
+}
+
+/// Rays meet a cube without joints that far to the right, where the frame shows it.
+fn check_shift(frame: &Frame, metres: f64, context: &str) {
+    let mut scene = Scene::new();
+    let cube = scene.add_object("cube", in_triangles(&primitives::cube(1.0)), Material::default());
+    scene.node_mut(cube).expect("just added").transform = Transform::from_translation(DVec3::X * metres);
+    let oracle = Oracle::new(&scene, &from_front(), [frame.width, frame.height]);
+    let decided = check_ids(frame, &oracle, context);
+    assert!(decided > 0.9, "{context}: {decided} of the pixels are decided");
 }
 
 /// Weights count by their share of the sum, whatever that is.
 #[test]
 fn weights_that_do_not_sum_to_one_count_by_their_share() {
-    let expected = followed(&[0.75, 0.25]);
-    assert!(expected.object_ids.as_ref().is_some_and(|ids| ids.contains(&0)), "the cube is seen");
     for weights in [
+        [0.75, 0.25],
         [3.0, 1.0],
         [0.375, 0.125],
         [3e38, 1e38],
         [f32::from_bits(3), f32::from_bits(1)],
         [0.75e-30, 0.25e-30],
     ] {
-        let shown = followed(&weights);
-        // Three and one of the least steps that there are, and decimals, which
-        // are a rounding away from three to one: images of 32 pixels do not show it.
-        assert_eq!(shown.object_ids, expected.object_ids, "{weights:?}");
+        // Three quarters of the way to the first joint less a quarter of that to the second. Three and one
+        // of the least steps that there are, and decimals, are a rounding away from three to one.
+        check_shift(&followed(&weights), 0.5, &format!("{weights:?}"));
     }
     for nothing in [[0.0, 0.0], [f32::NAN, 0.0], [-1.0, f32::INFINITY]] {
-        assert_eq!(
-            followed(&nothing).object_ids,
-            followed(&[1.0, 0.0]).object_ids,
-            "{nothing:?}: the first joint"
-        );
+        check_shift(&followed(&nothing), 1.0, &format!("{nothing:?}: the first joint"));
     }
 }

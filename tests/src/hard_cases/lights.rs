@@ -259,6 +259,8 @@ proptest! {
             (Light { kind, color: Vec3::new(r, g, b), intensity, range }, DVec3::new(f64::from(r), 1.0, f64::from(b)))
         }).collect();
         let alone = floor(metal(roughness), model, &[good]);
+        let brightest = alone.color.chunks_exact(4).map(|pixel| pixel[0]).max();
+        prop_assert!(brightest > Some(100), "the good lamp gives light: {:?}", brightest);
         lights.push(good);
         let together = floor(metal(roughness), model, &lights);
         check_numbers(&together);
