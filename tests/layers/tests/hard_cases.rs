@@ -1,6 +1,7 @@
 //! `docs/hard-cases.md` has at least 150 rows, and each names tests that exist where the row says; and oracles import
-//! nothing of what they judge.
+//! nothing of what they judge, whether they have files of their own or are parts of tests.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use trigon_layers::{rust_files, workspace};
@@ -35,10 +36,19 @@ fn rows() -> Vec<Row> {
     rows
 }
 
+/// All Rust files below a folder, with their texts.
+fn files(folder: &Path) -> Vec<(PathBuf, String)> {
+    let files = rust_files(folder).expect("folders that can be listed");
+    let text = |path: PathBuf| {
+        let text = fs::read_to_string(&path).expect("a source");
+        (path, text)
+    };
+    files.into_iter().map(text).collect()
+}
+
 /// The text of all Rust files below a folder.
 fn sources(folder: &Path) -> String {
-    let files = rust_files(folder).expect("folders that can be listed");
-    files.iter().map(|path| fs::read_to_string(path).expect("a source")).collect()
+    files(folder).into_iter().map(|(_, text)| text).collect()
 }
 
 /// The folder of a package: a crate, or else an application.
@@ -167,4 +177,125 @@ fn oracles_import_nothing_of_what_they_judge() {
     };
     let faults: Vec<String> = exact.chain(images).filter_map(fault).collect();
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// What a test may not take from the engine to judge it: how nodes are placed, how points are projected, which way faces
+/// look.
+const JUDGED: [&str; 14] = [
+    "world_transform",
+    "visible_transforms",
+    "to_affine",
+    ".matrix(",
+    "view_projection",
+    "Projector",
+    "to_screen",
+    "to_camera",
+    "height_at",
+    "is_closed()",
+    "is_mirroring",
+    "face_area_vector",
+    "face_normal",
+    "_normals()",
+];
+
+/// The files with tests of the table that call these functions all the same, and why the answer is no oracle there.
+const NO_ORACLE: [(&str, &[&str], &str); 21] = [
+    (
+        "apps/viewer/src/framing.rs",
+        &["Projector", "to_screen"],
+        "framing is judged by projection, which has its own row",
+    ),
+    ("apps/viewer/src/scenery.rs", &["world_transform"], "the place of a grid is what is judged"),
+    ("apps/viewer/src/series.rs", &["world_transform"], "the keyframe that is shown is what is judged"),
+    ("crates/camera/tests/behaviour/fit.rs", &["Projector", "to_screen"], "as framing"),
+    (
+        "crates/camera/tests/behaviour/orbit.rs",
+        &["Projector", "to_screen", "height_at"],
+        "tests without a row",
+    ),
+    ("crates/io/tests/import/gltf.rs", &["world_transform"], "the place that was read is what is judged"),
+    ("crates/math/src/predicates/tests.rs", &["is_mirroring"], "it is judged, by 128-bit integers"),
+    (
+        "crates/mesh/tests/mesh/normals.rs",
+        &["_normals()", "face_area_vector"],
+        "they are judged, by literal numbers",
+    ),
+    ("crates/mesh/tests/mesh/rendering.rs", &["_normals()"], "what was given, for tests without a row"),
+    ("crates/mesh/tests/mesh/tangents.rs", &["_normals()"], "MikkTSpace is given normals"),
+    (
+        "crates/modelling/src/operations/table_tests/mod.rs",
+        &["face_area_vector"],
+        "areas of triangles are judged, by that of the outline, which normals.rs judges",
+    ),
+    ("crates/scene/src/lighting/mod.rs", &["to_camera"], "a parameter"),
+    (
+        "crates/scene/src/outputs/tests.rs",
+        &["Projector", "to_screen", "world_transform"],
+        "tests without a row",
+    ),
+    (
+        "crates/scene/src/pick/tests/points.rs",
+        &["Projector", "to_screen", "world_transform"],
+        "tests without a row",
+    ),
+    (
+        "tests/src/camera.rs",
+        &[".matrix(", "view_projection", "Projector", "to_screen", "to_camera"],
+        "they are judged, by the projections' fields; bounds on rounding are scaled by them",
+    ),
+    (
+        "tests/src/hard_cases/depth.rs",
+        &[".matrix(", "height_at"],
+        "it makes input, and its depths are judged",
+    ),
+    ("tests/src/hard_cases/edits.rs", &["to_affine"], "it is judged, by its own value at the start"),
+    (
+        "tests/src/hard_cases/near_plane.rs",
+        &[".matrix("],
+        "it makes input: what is drawn is judged in clip space",
+    ),
+    ("tests/src/hard_cases/texture_detail.rs", &[".matrix("], "as near_plane.rs"),
+    ("tests/src/hard_cases/transforms.rs", &["world_transform", "visible_transforms"], "they are judged"),
+    ("tests/src/scene.rs", &["world_transform", "visible_transforms"], "they are judged"),
+];
+
+/// The files that hold tests of rows.
+fn files_of(rows: &[Row]) -> BTreeMap<PathBuf, String> {
+    let mut folders = BTreeMap::new();
+    let mut found = BTreeMap::new();
+    for row in rows {
+        let mut folder = workspace().join("tests/src");
+        for name in row.test.split('`').skip(1).step_by(2) {
+            if let Some(package_name) = name.strip_prefix("trigon-") {
+                folder = package(package_name);
+                continue;
+            }
+            let start = format!("fn {}(", name.rsplit("::").next().unwrap_or(name));
+            let all = folders.entry(folder.clone()).or_insert_with(|| files(&folder));
+            found.extend(all.iter().filter(|(_, text)| text.contains(&start)).cloned());
+        }
+    }
+    found
+}
+
+#[test]
+fn tests_of_hard_cases_judge_by_nothing_of_the_engine() {
+    let mut found = Vec::new();
+    for (path, text) in &files_of(&rows()) {
+        let path = path.strip_prefix(workspace()).expect("within the workspace").to_string_lossy();
+        // A module of tests within a source is at its end.
+        let tests = text.split_once("#[cfg(test)]").map_or(text.as_str(), |(_, tests)| tests);
+        let code = tests.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let code: String = code.flat_map(|line| [line, "\n"]).collect();
+        found.extend(JUDGED.iter().filter(|word| code.contains(*word)).map(|word| (path.to_string(), *word)));
+    }
+    let is_listed = |(path, word): &(String, &str)| {
+        NO_ORACLE.iter().any(|(p, words, _)| p == path && words.contains(word))
+    };
+    let faults: Vec<_> = found.iter().filter(|call| !is_listed(call)).collect();
+    assert!(faults.is_empty(), "compute it in the test, or say here why it is no oracle: {faults:#?}");
+    let calls =
+        NO_ORACLE.iter().flat_map(|(path, words, _)| words.iter().map(|word| ((*path).to_owned(), *word)));
+    let gone: Vec<_> = calls.filter(|call| !found.contains(call)).collect();
+    assert!(gone.is_empty(), "no longer called: {gone:#?}");
 }

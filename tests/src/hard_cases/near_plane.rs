@@ -62,6 +62,12 @@ proptest! {
         let corners = [0, 1, 2].map(|i| Vec4::new(places[i][0] * w[i], places[i][1] * w[i], z, -w[i]));
         let counts = count(&Values::ones(corners), &[[0, 1, 2]]);
         prop_assert!(counts.iter().all(|&count| count == 0), "nothing is behind the eye");
+        // What lies before the eye in the same pixels is drawn: else this would hold of an engine that draws nothing.
+        let before = [0, 1, 2].map(|i| {
+            let ahead = w[i].max(0.01);
+            Vec4::new(places[i][0] * ahead, places[i][1] * ahead, 0.5 * ahead, ahead)
+        });
+        check(before, TOLERANCE);
     }
 
     /// Edge on, nothing is seen but, by the rounding of its corners, what lies on the

@@ -112,7 +112,12 @@ proptest! {
         let within = |value: f32, [a, b, c]: [f32; 3]| a.min(b).min(c) <= value && value <= a.max(b).max(c);
         let ids = images.triangles.expect("asked for");
         let (depth, linear) = (images.depth.expect("asked for"), images.linear.expect("asked for"));
-        for index in (0..ids.len()).filter(|&index| ids[index] == 0) {
+        for index in 0..ids.len() {
+            let is_covered = covers(points, pixel_center(pixel(index)));
+            prop_assert_eq!(ids[index] == 0, is_covered, "coverage at {:?}", pixel(index));
+            if !is_covered {
+                continue;
+            }
             prop_assert!(within(depth[index], depths), "depth {} of {depths:?}", depth[index]);
             prop_assert!(within(linear[index].x, values), "{} of {values:?}", linear[index].x);
         }
