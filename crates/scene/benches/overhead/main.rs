@@ -1,16 +1,16 @@
 //! What the scene renderer costs above a pipeline written by hand for the same image: a torus knot of 70,000
 //! triangles, in the classes of material that [`Class`] names.
 //!
-//! Times, or instructions of one warm frame (the difference of two counts):
+//! Times, or instructions of one warm frame:
 //!
 //! ```sh
 //! cargo bench -p trigon-scene --bench overhead -- scene plain 50
 //! program=$(ls -t target/release/deps/overhead-* | grep -v '\.d$' | head -n 1)
-//! for frames in 1 11; do valgrind --tool=callgrind "$program" hand plain $frames; done
+//! valgrind --tool=callgrind --demangle=no --toggle-collect='*shortest*' "$program" hand plain 1
 //! ```
 //!
-//! The first word is `scene` or `hand`, the second a class. Before anything counts, the image drawn by hand is compared
-//! with that of the scene renderer: see [`check`].
+//! The first word is `scene` or `hand`, the second a class. Before a time by hand is printed, the image is compared with
+//! that of the scene renderer: see [`check`].
 
 #![expect(clippy::print_stdout, reason = "a number is what this is for")]
 
