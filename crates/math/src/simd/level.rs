@@ -3,16 +3,22 @@
 //! The level without vectors takes longer to compile than all others together. Where the processor has vectors it is there
 //! only with the feature `scalar`.
 
-#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-use fearless_simd::Fallback;
 use fearless_simd::Level;
+
+/// The level without vectors.
+#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+pub type Scalar = fearless_simd::Fallback;
+
+/// The level without vectors, which is not there.
+#[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+#[derive(Clone, Copy, Debug)]
+pub enum Scalar {}
 
 /// A level that the processor has.
 #[derive(Clone, Copy, Debug)]
 pub enum Token {
     /// No vectors.
-    #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-    Scalar(Fallback),
+    Scalar(Scalar),
     /// x86-64's own 128 bits.
     #[cfg(target_arch = "x86_64")]
     Sse2(fearless_simd::x86::Sse2),
@@ -42,7 +48,7 @@ impl Token {
         #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
         let vectors: [Option<Self>; 0] = [];
         #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-        let scalar = [Self::Scalar(Fallback::new())];
+        let scalar = [Self::Scalar(Scalar::new())];
         #[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
         let scalar = [];
         let _ = level;
@@ -58,13 +64,12 @@ impl Token {
 
 /// Runs an expression in a function that is compiled for the level of a [`Token`]. Everything that it calls must be
 /// `#[inline(always)]` down to the vectors, or it loses the level's instructions.
-#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 #[macro_export]
 macro_rules! at_level {
     ($token:expr, $simd:ident => $body:expr) => {{
         use $crate::simd::Simd as _;
         match $token {
-            $crate::simd::Token::Scalar($simd) => $crate::at_token!($simd => $body),
+            $crate::simd::Token::Scalar($simd) => $crate::at_scalar!($simd => $body),
             #[cfg(target_arch = "x86_64")]
             $crate::simd::Token::Sse2($simd) => $crate::at_token!($simd => $body),
             #[cfg(target_arch = "x86_64")]
@@ -77,24 +82,24 @@ macro_rules! at_level {
     }};
 }
 
-/// Runs an expression in a function that is compiled for the level of a [`Token`]. Everything that it calls must be
-/// `#[inline(always)]` down to the vectors, or it loses the level's instructions.
-#[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+/// Runs an expression without vectors.
+#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[doc(hidden)]
 #[macro_export]
-macro_rules! at_level {
-    ($token:expr, $simd:ident => $body:expr) => {{
-        use $crate::simd::Simd as _;
-        match $token {
-            #[cfg(target_arch = "x86_64")]
-            $crate::simd::Token::Sse2($simd) => $crate::at_token!($simd => $body),
-            #[cfg(target_arch = "x86_64")]
-            $crate::simd::Token::Avx2($simd) => $crate::at_token!($simd => $body),
-            #[cfg(target_arch = "x86_64")]
-            $crate::simd::Token::Avx512($simd) => $crate::at_token!($simd => $body),
-            #[cfg(target_arch = "aarch64")]
-            $crate::simd::Token::Neon($simd) => $crate::at_token!($simd => $body),
-        }
-    }};
+macro_rules! at_scalar {
+    ($simd:ident => $body:expr) => {
+        $crate::at_token!($simd => $body)
+    };
+}
+
+/// Compiles nothing for a level that is not there.
+#[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! at_scalar {
+    ($simd:ident => $body:expr) => {
+        match $simd {}
+    };
 }
 
 /// Runs an expression in a function that is compiled for a level.

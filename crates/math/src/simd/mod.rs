@@ -6,7 +6,7 @@ use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 
 pub use fearless_simd::Simd;
-pub use level::Token;
+pub use level::{Scalar, Token};
 
 /// The smaller of two; the second where they are equal or one is no number.
 /// (`min` leaves the sign of zero and the fate of a NaN to the machine: where that

@@ -1,7 +1,5 @@
 //! Which vector instructions a frame is drawn with.
 
-#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-use fearless_simd::Fallback;
 use fearless_simd::Level;
 use std::fmt;
 use std::str::FromStr;
@@ -62,7 +60,7 @@ impl SimdLevel {
     pub(crate) fn token(self) -> Option<Token> {
         match self {
             #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-            Self::Scalar => Some(Token::Scalar(Fallback::new())),
+            Self::Scalar => Some(Token::Scalar(trigon_math::simd::Scalar::new())),
             #[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
             Self::Scalar => None,
             #[cfg(target_arch = "x86_64")]
