@@ -96,33 +96,21 @@ impl LightingEnvironment {
         pixels: [F32<S>; 2],
         active: u64,
     ) -> Option<F32<S>> {
-        let (ambient, scene) = (self.ambient_rays.as_ref()?, self.rays.as_ref()?);
-        let Some(buffer) = &self.occlusion_buffer else {
-            let starts = RayStarts { points, pixels, part: RayPart::All, active };
-            return Some(ambient.open(simd, scene, &starts));
-        };
+        let all = RayStarts { points, pixels, part: RayPart::All, active };
+        let Some(buffer) = &self.occlusion_buffer else { return self.open_by_rays(simd, &all) };
         let (found, is_known) = buffer.at(simd, points, pixels);
         let unknown = active & !is_known.to_bitmask();
         if unknown == 0 {
             return Some(found);
         }
-        let starts = RayStarts { points, pixels, part: RayPart::OfSquare(2), active: unknown };
-        let cast = ambient.open(simd, scene, &starts);
-        Some(is_known.select(found, cast))
+        let some = RayStarts { part: RayPart::OfSquare(2), active: unknown, ..all };
+        Some(is_known.select(found, self.open_by_rays(simd, &some)?))
     }
 
-    /// As [`open`](Self::open), by the rays of one pixel in 16 alone: for the buffer.
+    /// The fraction of the rays that leave the surroundings of points; `None` without ambient occlusion.
     #[inline(always)]
-    pub(crate) fn partly_open<S: Simd>(
-        &self,
-        simd: S,
-        points: &LitPoints<S>,
-        pixels: [F32<S>; 2],
-        active: u64,
-    ) -> Option<F32<S>> {
-        let (ambient, scene) = (self.ambient_rays.as_ref()?, self.rays.as_ref()?);
-        let starts = RayStarts { points, pixels, part: RayPart::OfSquare(4), active };
-        Some(ambient.open(simd, scene, &starts))
+    pub(crate) fn open_by_rays<S: Simd>(&self, simd: S, starts: &RayStarts<'_, S>) -> Option<F32<S>> {
+        Some(self.ambient_rays.as_ref()?.open(simd, self.rays.as_ref()?, starts))
     }
 
     /// What white matt surfaces show in ambient light.

@@ -5,6 +5,7 @@ use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::traced::TracedSurface;
 use super::{LightSlots, Surface, load, shown};
+use crate::effects::{RayPart, RayStarts};
 use crate::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
 use crate::lighting::{Brdf, LitPoints, Reflected};
 use crate::material::MaterialTexture;
@@ -114,8 +115,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             #[inline(always)]
             || {
                 let points = self.points(simd, fragments);
-                let (pixel, active) = (fragments.position(), fragments.active());
-                let open = match self.lighting.partly_open(simd, &points, pixel, active) {
+                let (pixels, active) = (fragments.position(), fragments.active());
+                // The pixels of a square cast all rays together.
+                let starts = RayStarts { points: &points, pixels, part: RayPart::OfSquare(4), active };
+                let open = match self.lighting.open_by_rays(simd, &starts) {
                     Some(open) => open,
                     None => F32::splat(simd, 1.0),
                 };

@@ -8,7 +8,7 @@
 //!
 //! Both steps weigh a neighbour by its distance from the plane through the point, so neither objects nor the sides of an
 //! edge mix, and on surfaces that the eye sees at a grazing angle all neighbours count. The mean weighs it by the angle
-//! between both normals, too. A sample none of whose neighbours lies on its surface is reported, and casts rays itself.
+//! between both normals, too. Where no neighbour lies on a sample's surface, the buffer says so, and the sample casts rays.
 
 use trigon_camera::Projection;
 use trigon_math::simd::Token;
