@@ -123,12 +123,68 @@ proptest! {
         }
         let uv_sets = vec![uvs.into_iter().map(Vec2::from).collect()];
         mesh.set_attributes(Attributes { uv_sets, ..Attributes::default() }).expect("24 corners");
-        for tangent in mesh.generate_tangents(0).expect("there is a set") {
+        let tangents = mesh.generate_tangents(0).expect("there is a set");
+        for tangent in &tangents {
             // As above.
             let error = (tangent.truncate().as_dvec3().length() - 1.0).abs();
             prop_assert!(error < 4.0 * f64::from(f32::EPSILON), "{} is no unit vector", tangent);
             prop_assert!(tangent.w.abs() == 1.0, "{} has no side", tangent);
         }
+        if flattened {
+            return Ok(());
+        }
+        let triangles = mesh.triangulation().triangles;
+        for (corner, tangent) in tangents.iter().enumerate() {
+            let around: Vec<_> = triangles.iter().filter(|triangle| triangle.contains(&(corner as u32))).collect();
+            // Two triangles share the others; how they are weighed is MikkTSpace's.
+            let [triangle] = around[..] else { continue };
+            let Some(directions) = Directions::of(&mesh, triangle) else { continue };
+            let along_u = directions.along_u.normalize();
+            let difference = (tangent.truncate().as_dvec3() - along_u).length();
+            prop_assert!(difference < directions.error, "corner {}: {} instead of {}", corner, tangent, along_u);
+            let bitangent = directions.normal.cross(tangent.truncate().as_dvec3()) * f64::from(tangent.w);
+            prop_assert!(bitangent.dot(directions.along_v) < 0.0, "corner {}: v falls along the bitangent", corner);
+        }
+    }
+}
+
+/// Where a triangle's texture coordinates grow.
+struct Directions {
+    along_u: DVec3,
+    along_v: DVec3,
+    normal: DVec3,
+    /// How far a tangent computed in f32 may be from the direction of `along_u`.
+    error: f64,
+}
+
+impl Directions {
+    /// From the two equations `edge = u * along_u + v * along_v`, by Cramer's rule. `None` if they cannot be told from
+    /// linearly dependent ones in f32.
+    fn of(mesh: &Mesh, triangle: &[u32; 3]) -> Option<Self> {
+        let position =
+            |corner: u32| mesh.positions()[mesh.corner_vertices()[corner as usize] as usize].as_dvec3();
+        let uv = |corner: u32| mesh.attributes().uv_sets[0][corner as usize].as_dvec2();
+        let [a, b, c] = *triangle;
+        let (first, second) = (position(b) - position(a), position(c) - position(a));
+        let (of_first, of_second) = (uv(b) - uv(a), uv(c) - uv(a));
+        let products = [of_first.x * of_second.y, of_first.y * of_second.x];
+        let determinant = products[0] - products[1];
+        // Two differences, a product and a sum, each rounded.
+        let rounding = 4.0 * f64::from(f32::EPSILON);
+        let is_decided = determinant.abs() > rounding * (products[0].abs() + products[1].abs());
+        // NaN is not decided; smaller products are no normal numbers in f32.
+        if !is_decided || determinant.abs() < 1e-30 {
+            return None;
+        }
+        let scaled = first * of_second.y - second * of_first.y;
+        let size = first.length() * of_second.y.abs() + second.length() * of_first.y.abs();
+        Some(Self {
+            along_u: scaled / determinant,
+            along_v: (second * of_first.x - first * of_second.x) / determinant,
+            normal: first.cross(second),
+            // The same, and a unit vector's.
+            error: rounding * (1.0 + size / scaled.length()),
+        })
     }
 }
 

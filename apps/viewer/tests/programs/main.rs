@@ -10,6 +10,7 @@ mod outputs;
 mod up;
 mod views;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -154,8 +155,6 @@ fn every_flag_about_the_image_changes_it() {
     };
     let plain = stream("");
     for flags in [
-        "--no-background",
-        "--background-color=navy",
         "--up=+Z",
         "--edges",
         "--style=wireframe",
@@ -173,13 +172,44 @@ fn every_flag_about_the_image_changes_it() {
         "--camera-azimuth-angle=30",
         "--camera-elevation-angle=30",
         "--camera-orthographic",
-        "--color=green",
         "--opacity=50%",
-        "--unlit",
+        "--metallic=1",
+        "--roughness=0.2",
+        "--point-sprites",
+        "--shadows",
+        "--ambient-occlusion",
         "--light-intensity=0.5",
     ] {
         assert!(stream(flags) != plain, "`{flags}` changes nothing");
     }
+    let pixels = |flags: &str| {
+        folder.said(&format!("corner.obj --output o.png --resolution 60,40 --verbose=error {flags}"), 0);
+        image(&folder.path("o.png")).rgba
+    };
+    let count =
+        |flags: &str, color: [u8; 4]| pixels(flags).chunks(4).filter(|pixel| **pixel == color).count();
+    let (all, model) = (60 * 40, 60 * 40 - count("--no-background", [0; 4]));
+    assert!((200..2000).contains(&model), "the model takes a part of the image: {model} pixels");
+    // Edges of the model are mixed with what is behind them.
+    assert_eq!(count("--background-color=navy", [0, 0, 128, 255]), all - model, "navy where no model is");
+    let inner = model - 120;
+    assert!((inner..=model).contains(&count("--color=green --unlit", [0, 128, 0, 255])), "a green model");
+    folder.write(
+        "tile.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n",
+    );
+    let colors_of_tile = |flags: &str| {
+        let flags = format!("--view=front --unlit --no-background --anti-aliasing=none {flags}");
+        folder.said(&format!("tile.obj --output t.png --resolution 60,40 {flags}"), 0);
+        image(&folder.path("t.png")).rgba.chunks(4).map(<[u8]>::to_vec).collect::<BTreeSet<_>>().len()
+    };
+    let colors = [colors_of_tile(""), colors_of_tile("--checkerboard")];
+    assert_eq!(colors, [2, 3], "the background, and one or two colors");
+    // The camera sees the outside of the corner from one side, and its inside from the other.
+    let hidden = ["1,1,1", "-1,-1,-1"].map(|direction| {
+        count(&format!("--no-background --backface-type=hidden --camera-direction={direction}"), [0; 4])
+    });
+    assert!(hidden.contains(&all) && hidden.iter().any(|count| *count < all), "{hidden:?}");
     for flags in
         ["--threads=1", NARROW, "--edges=false", "--samples=3", "--style=surface", "--camera-index=-1"]
     {
@@ -224,11 +254,19 @@ fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
 fn several_files_are_drawn_together_or_under_several_names() {
     let folder = Folder::new();
     folder.write("b.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n");
+    // The same faces in one file.
+    let together = format!("{CORNER}usemtl none\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 8 9 10\n");
+    folder.write("together.obj", &together);
     let said = folder.said("corner.obj b.obj --output {model}_{n:2}.png --resolution 20,20", 0);
     assert_eq!(said.lines().count(), 2, "a line each: {said}");
-    assert!(folder.path("corner_01.png").is_file() && folder.path("b_01.png").is_file(), "a file each");
     folder.said("corner.obj b.obj --output all.png --multi-file-mode=all --resolution 20,20", 0);
-    assert!(folder.path("all.png").is_file(), "one file");
+    for (name, alone) in [("corner_01.png", "corner.obj"), ("b_01.png", "b.obj"), ("all.png", "together.obj")]
+    {
+        folder.said(&format!("{alone} --output alone.png --resolution 20,20 --verbose=error"), 0);
+        assert!(image(&folder.path(name)) == image(&folder.path("alone.png")), "{name} shows {alone}");
+    }
+    let shows = |name: &str| image(&folder.path(name)).rgba;
+    assert!(shows("corner_01.png") != shows("b_01.png") && shows("all.png") != shows("corner_01.png"));
 
     let said = folder.said("corner.obj b.obj --output one.png", 2);
     assert!(said.contains("{model}") && said.contains("--multi-file-mode=all"), "both remedies: {said}");

@@ -2,8 +2,8 @@
 
 use egui_kittest::kittest::Queryable;
 use trigon_document::Document;
-use trigon_window::scene::math::Vec3;
-use trigon_window::scene::{Material, mesh::primitives, render};
+use trigon_window::scene::math::{DVec3, Vec3};
+use trigon_window::scene::{Material, Node, Transform, mesh::primitives, render};
 use trigon_window::{Comparison, Refinement};
 
 use super::super::ShownDocument;
@@ -54,16 +54,76 @@ fn an_image_is_inspected_when_it_is_asked_for() {
     assert_eq!(case.take_requests(), [Request::Compare(Comparison::Measured)], "the stage compares");
 }
 
+/// Pixels of an image half as large, each with the index of the pixel of the frame that it shows.
+fn half(frame: &Frame, buffer: Buffer) -> Vec<(usize, [u8; 4])> {
+    let image = buffer.image(frame, frame.width / 2);
+    assert_eq!(image.size, [frame.width / 2, frame.height / 2].map(|side| side as usize), "half as large");
+    let [width, _] = image.size;
+    let shown = image.pixels.iter().enumerate();
+    shown
+        .map(|(at, color)| (at / width * 2 * frame.width as usize + at % width * 2, color.to_array()))
+        .collect()
+}
+
 #[test]
 fn buffers_show_what_they_hold() {
-    let scene = scene();
+    let mut scene = scene();
+    let blue = Material::from_color(Vec3::Z).with_name("blue");
+    let cube = scene.add_mesh("cube", primitives::cube(1.0));
+    let beside = Node::from_mesh(cube, scene.add_material(blue));
+    scene.add(beside.with_transform(Transform::from_translation(DVec3::X * 2.0)));
     let settings = RenderSettings { outputs: Outputs::ALL, ..RenderSettings::new(32, 16) };
     let frame = render(&scene, &scene.overview(2.0), &settings).expect("small");
-    for buffer in Buffer::ALL {
-        let image = buffer.image(&frame, 16);
-        assert_eq!(image.size, [16, 8], "half as large");
-        // The middle of the ball, and background.
-        assert_ne!(image.pixels[4 * 16 + 8], image.pixels[0], "{}", buffer.name());
+    let depth = frame.depth.as_ref().expect("requested");
+    assert!(depth[0].is_infinite() && depth.iter().any(|depth| depth.is_finite()), "bodies and background");
+
+    for (at, color) in half(&frame, Buffer::Color) {
+        assert_eq!(color, frame.color[4 * at..4 * at + 4], "pixel {at}");
+    }
+    // Nearer is brighter, and nothing is black.
+    let mut grays: Vec<(f32, u8)> = Vec::new();
+    for (at, [red, green, blue, _]) in half(&frame, Buffer::Depth) {
+        assert!(red == green && green == blue, "pixel {at} is gray");
+        grays.push((depth[at], red));
+    }
+    grays.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert!(grays.is_sorted_by(|a, b| a.1 >= b.1), "{grays:?}");
+    assert!(grays.iter().all(|(depth, gray)| depth.is_infinite() == (*gray == 0)), "{grays:?}");
+    // Two pixels have one color if they have one id.
+    let lists = [
+        (Buffer::Objects, &frame.object_ids),
+        (Buffer::Faces, &frame.face_ids),
+        (Buffer::Triangles, &frame.triangle_ids),
+        (Buffer::Materials, &frame.material_ids),
+    ];
+    for (buffer, ids) in lists {
+        let ids = ids.as_ref().expect("requested");
+        let shown = half(&frame, buffer);
+        for (at, color) in &shown {
+            assert_eq!(ids[*at] == u32::MAX, *color == [0, 0, 0, 255], "{}: background", buffer.name());
+            for (other, of_other) in &shown {
+                assert_eq!(ids[*at] == ids[*other], color == of_other, "{}: {at}, {other}", buffer.name());
+            }
+        }
+    }
+    let (normals, uvs) = (frame.normals.as_ref().expect("requested"), frame.uvs.as_ref().expect("requested"));
+    let objects = frame.object_ids.as_ref().expect("requested");
+    let byte = |share: f32| (share * 255.0) as u8;
+    for (at, color) in half(&frame, Buffer::Normals) {
+        let expected = normals[at].to_array().map(|axis| byte(0.5 + 0.5 * axis));
+        let expected = if depth[at].is_finite() { expected } else { [0; 3] };
+        assert_eq!(color[..3], expected, "the normal of pixel {at}");
+    }
+    for (at, color) in half(&frame, Buffer::Uvs) {
+        assert_eq!(color[..3], [byte(uvs[at].x.fract()), byte(uvs[at].y.fract()), 0], "pixel {at}");
+    }
+    for (at, color) in half(&frame, Buffer::Albedo) {
+        let expected = match objects[at] {
+            0 => [255, 0, 0],
+            1 => [0, 0, 255],
+            _ => [0; 3],
+        };
+        assert_eq!(color[..3], expected, "pixel {at}");
     }
     let lines = report::lines(&scene, &frame, [0, 0]);
     assert_eq!(lines[2], "Background", "nothing is there");
