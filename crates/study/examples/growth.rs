@@ -5,13 +5,13 @@
 #![expect(clippy::print_stdout, reason = "a table is what this is for")]
 
 use clap::Parser;
-use plotters::prelude::*;
 use std::error::Error;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use trigon_math::UVec2;
 use trigon_raster::{ExecuteSettings, Rasterizer};
+use trigon_scene::quality::plot::{BLUE, GREY, LegendEntry, LegendMark, Plot, PlotLine};
 use trigon_study::workloads::{Canvas, Grid, Scene, Shading, Timings};
 
 /// Draw a torus of ever more triangles and a knot on ever more pixels.
@@ -55,36 +55,22 @@ impl Growth {
     /// the count.
     fn save(&self, folder: &Path) -> Result<(), Box<dyn Error>> {
         fs::create_dir_all(folder)?;
-        let path = folder.join(format!("growth-{}.svg", self.name));
-        let root = SVGBackend::new(&path, (640, 420)).into_drawing_area();
-        root.fill(&WHITE)?;
-        let [first, last] = [self.points[0], self.points[self.points.len() - 1]];
-        let low = last.1 / last.0 * first.0;
-        let mut chart = ChartBuilder::on(&root)
-            .margin(12)
-            .caption(format!("Time of a frame by {}", self.unit), ("sans-serif", 18))
-            .x_label_area_size(40)
-            .y_label_area_size(60)
-            .build_cartesian_2d(
-                (first.0..last.0).log_scale(),
-                (low.min(first.1) * 0.7..last.1 * 1.4).log_scale(),
-            )?;
-        chart.configure_mesh().x_desc(self.unit).y_desc("ms").draw()?;
-        chart
-            .draw_series(LineSeries::new([(first.0, low), last], BLACK.mix(0.4)))?
-            .label("proportional")
-            .legend(|(x, y)| PathElement::new([(x, y), (x + 16, y)], BLACK.mix(0.4)));
-        chart
-            .draw_series(LineSeries::new(self.points.iter().copied(), &BLUE))?
-            .label("measured")
-            .legend(|(x, y)| PathElement::new([(x, y), (x + 16, y)], BLUE));
-        chart.draw_series(self.points.iter().map(|&point| Circle::new(point, 3, BLUE.filled())))?;
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .background_style(WHITE)
-            .draw()?;
-        Ok(root.present()?)
+        let points: Vec<[f64; 2]> = self.points.iter().map(|&(count, time)| [count, time]).collect();
+        let [first, last] = [points[0], points[points.len() - 1]];
+        let proportional = vec![[first[0], last[1] / last[0] * first[0]], last];
+        let entry =
+            |text: &str, color| LegendEntry { text: text.to_owned(), mark: LegendMark::Line(color, 1) };
+        let plot = Plot {
+            title: format!("Time of a frame by {}", self.unit),
+            axes: [self.unit, "ms"].map(str::to_owned),
+            lines: vec![
+                PlotLine { points: proportional, color: GREY, width: 1, disc: 0 },
+                PlotLine { points, color: BLUE, width: 1, disc: 3 },
+            ],
+            legend: vec![entry("proportional", GREY), entry("measured", BLUE)],
+            ..Plot::default()
+        };
+        Ok(fs::write(folder.join(format!("growth-{}.svg", self.name)), plot.to_svg())?)
     }
 }
 

@@ -28,6 +28,7 @@ mod choice;
 mod cost;
 mod error;
 mod knobs;
+pub mod plot;
 mod probe;
 
 #[cfg(test)]
