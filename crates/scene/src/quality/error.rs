@@ -14,6 +14,37 @@ pub fn rmse(image: &Frame, reference: &Frame) -> f64 {
     if pixels == 0 { 0.0 } else { (squares(image, reference) / (3 * pixels) as f64).sqrt() }
 }
 
+/// The error that an image has because its light is rounded to bytes, as [`rmse`] measures it: the root mean square over all
+/// the light that its bytes stand for, each from half a step below to half a step above. Images that differ from it by less
+/// are as good. 0 without colours.
+///
+/// ```
+/// use trigon_scene::{Frame, quality::rounding_floor};
+///
+/// let grey = |byte: u8| Frame { width: 1, height: 1, color: vec![byte, byte, byte, 255], ..Frame::default() };
+/// assert!(rounding_floor(&grey(200)) > rounding_floor(&grey(20)), "steps of sRGB grow with the light");
+/// ```
+#[must_use]
+pub fn rounding_floor(image: &Frame) -> f64 {
+    let light = |byte: f32| f64::from(color::srgb_to_linear((byte / 255.0).clamp(0.0, 1.0)));
+    let cube = |value: f64| value * value * value;
+    let of_byte: Vec<f64> = (0..=255_u8)
+        .map(|byte| {
+            let [low, middle, high] = [-0.5, 0.0, 0.5].map(|half| light(f32::from(byte) + half));
+            (cube(high - middle) + cube(middle - low)) / (3.0 * (high - low))
+        })
+        .collect();
+    let of_pixel = |&[red, green, blue, alpha]: &[u8; 4]| {
+        let alpha = f64::from(alpha) / 255.0;
+        [red, green, blue].map(|byte| of_byte[usize::from(byte)]).iter().sum::<f64>() * alpha * alpha
+    };
+    let pixels = pixels(image);
+    if pixels.is_empty() {
+        return 0.0;
+    }
+    (pixels.iter().map(of_pixel).sum::<f64>() / (3 * pixels.len()) as f64).sqrt()
+}
+
 /// Learns from images of a scene and their references what error others will have.
 ///
 /// Errors of faster settings are concentrated where light changes from pixel to pixel: at outlines,
@@ -218,6 +249,32 @@ mod tests {
         assert_eq!(rmse(&Frame::default(), &white), 0.0, "nothing to compare");
         let clear = Frame { color: [255, 255, 255, 0].repeat(32 * 32), ..white.clone() };
         assert_eq!(rmse(&clear, &white), 1.0, "what is transparent has no light");
+    }
+
+    /// Against light that is rounded to bytes here, spread over all that shows.
+    #[test]
+    fn rounding_errs_as_much_as_is_said() {
+        const SIDE: u32 = 128;
+        let count = SIDE * SIDE;
+        let light = |index: u32| (f64::from(index) + 0.5) / f64::from(count);
+        // Even in sRGB, so that all light of a byte is as frequent as that of any other.
+        let exact: Vec<f32> = (0..count).map(|index| color::srgb_to_linear(light(index) as f32)).collect();
+        let color = exact.iter().flat_map(|&light| {
+            let byte = color::linear_to_srgb8(light);
+            [byte, byte, byte, 255]
+        });
+        let image = Frame { width: SIDE, height: SIDE, color: color.collect(), ..Frame::default() };
+        let squares = exact.iter().zip(pixels(&image)).map(|(exact, pixel)| {
+            let error = f64::from(exact - color::srgb8_to_linear(pixel[0]));
+            error * error
+        });
+        let measured = (squares.sum::<f64>() / f64::from(count)).sqrt();
+        let said = rounding_floor(&image);
+        // 64 samples in each byte's range: their mean square is off by 1/64² of it and by uneven density in it.
+        assert!((said / measured - 1.0).abs() < 0.01, "{said} for {measured}");
+        assert_eq!(rounding_floor(&Frame::default()), 0.0, "no colours");
+        let clear = Frame { color: [255, 255, 255, 0].repeat(32 * 32), ..stripes(32, 0) };
+        assert_eq!(rounding_floor(&clear), 0.0, "what is transparent has no light");
     }
 
     #[test]

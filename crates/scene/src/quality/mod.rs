@@ -9,6 +9,9 @@
 //! predicts times from measured frames, an [`ErrorModel`] predicts errors from images and
 //! references. Times come from the caller; the same times give the same choices.
 //!
+//! A [`Sweep`] measures many qualities of one image, and its [`Frontier`] says which of them another one beats in both time
+//! and error.
+//!
 //! The renderer does not know this module; apply a quality to its settings before drawing.
 //!
 //! ```
@@ -27,9 +30,11 @@ mod budget;
 mod choice;
 mod cost;
 mod error;
+mod frontier;
 mod knobs;
 pub mod plot;
 mod probe;
+mod sweep;
 
 #[cfg(test)]
 mod tests;
@@ -37,5 +42,7 @@ mod tests;
 pub use budget::TimeBudget;
 pub use choice::{Choice, Prediction, candidates};
 pub use cost::CostModel;
-pub use error::{ErrorModel, rmse};
+pub use error::{ErrorModel, rmse, rounding_floor};
+pub use frontier::{Frontier, FrontierDot, Standing, TimeSpread};
 pub use knobs::{Preset, Quality, UnknownPreset};
+pub use sweep::{Sweep, SweepOptions, SweepProgress};

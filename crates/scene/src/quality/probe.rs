@@ -126,7 +126,7 @@ impl TimeBudget {
 }
 
 /// Errors are of colours; other outputs would only take time.
-fn colors_alone(settings: &RenderSettings) -> RenderSettings {
+pub(super) fn colors_alone(settings: &RenderSettings) -> RenderSettings {
     RenderSettings { outputs: Outputs::default(), ..settings.clone() }
 }
 
