@@ -67,17 +67,13 @@ pub(crate) fn load(
 /// Loads with a progress bar when it takes long and standard error is a
 /// terminal, and reports the warnings.
 pub(crate) fn load_aloud(source: &Source, request: &Request, reporter: Reporter) -> Result<Model, Failure> {
-    let started = Instant::now();
-    let bar = hidden_bar(source.title());
+    let bar = LateBar::new(source.title(), request.shows_progress);
     let loaded = load(source, request, &|fraction| {
-        if bar.is_hidden() && (request.shows_progress || started.elapsed() > PATIENCE) {
-            // Draws nothing unless standard error is a terminal.
-            bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        bar.set_position((f64::from(fraction) * BAR_STEPS as f64) as u64);
+        bar.set(f64::from(fraction));
         ControlFlow::Continue(())
     });
-    bar.finish_and_clear();
+    let started = bar.started;
+    bar.finish();
     let (model, warnings) = loaded?;
     warnings.iter().for_each(|warning| reporter.warning(warning));
     for odd in &model.odd {
@@ -88,14 +84,38 @@ pub(crate) fn load_aloud(source: &Source, request: &Request, reporter: Reporter)
     Ok(model)
 }
 
-const BAR_STEPS: u64 = 1000;
+/// A progress bar that is shown if something takes long and standard error is a terminal.
+pub(crate) struct LateBar {
+    bar: ProgressBar,
+    started: Instant,
+    is_early: bool,
+}
 
-fn hidden_bar(what: String) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::hidden());
-    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent} %");
-    bar.set_style(style.expect("the template is well-formed"));
-    bar.set_message(what);
-    bar
+impl LateBar {
+    const STEPS: u64 = 1000;
+
+    /// With what it says; `is_early` shows it at once.
+    pub(crate) fn new(what: String, is_early: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(Self::STEPS), ProgressDrawTarget::hidden());
+        let style = ProgressStyle::with_template("{msg} {wide_bar} {percent} %");
+        bar.set_style(style.expect("the template is well-formed"));
+        bar.set_message(what);
+        Self { bar, started: Instant::now(), is_early }
+    }
+
+    /// How far it is, 0 to 1.
+    pub(crate) fn set(&self, fraction: f64) {
+        if self.bar.is_hidden() && (self.is_early || self.started.elapsed() > PATIENCE) {
+            // Draws nothing unless standard error is a terminal.
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.set_position((fraction * Self::STEPS as f64) as u64);
+    }
+
+    /// Removes it.
+    pub(crate) fn finish(self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 /// Loads the image that the model is to be lit by, if any.

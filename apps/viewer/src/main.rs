@@ -16,6 +16,7 @@ mod facts;
 mod failure;
 mod folders;
 mod framing;
+mod frontier;
 mod image;
 mod image_series;
 mod inputs;
@@ -87,6 +88,7 @@ fn main() -> ExitCode {
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
+        Mode::Frontier(output) => frontier::run(&request, output, reporter),
         Mode::ExplainPixel(at) => pixel::run(&request, *at, reporter),
         Mode::Check(purpose) => check::run(&request, *purpose, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),

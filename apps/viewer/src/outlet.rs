@@ -140,6 +140,20 @@ impl<'a> Outlet<'a> {
         Ok(())
     }
 
+    /// Writes a text; an old file of that name is replaced at once or not at all.
+    pub(crate) fn save_text(
+        &mut self,
+        path: &Path,
+        text: &str,
+        what: std::fmt::Arguments<'_>,
+    ) -> Result<(), Failure> {
+        let file = self.take(path)?;
+        let written = trigon_io::write_atomically(&file.stored, |file| file.write_all(text.as_bytes()));
+        written.map_err(|error| unwritten(path, error))?;
+        self.said(file, what);
+        Ok(())
+    }
+
     /// Writes a GIF or an animated PNG of all frames that `frame` makes.
     pub(crate) fn put_moving(
         &mut self,
@@ -256,16 +270,21 @@ fn write_beside(beside: Beside, path: &Path, frame: &Frame) -> Result<(), Failur
     written.map_err(|error| unwritten(path, error))
 }
 
+/// Why nothing can be written to a file, if its folder does not exist.
+pub(crate) fn missing_folder(path: &Path) -> Option<Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists())?;
+    Some(Failure::work(format!(
+        "{}: the folder {} does not exist; create it, or name another",
+        path.display(),
+        folder.display()
+    )))
+}
+
 /// Why a file was not written. That its folder is missing is told before what the system says.
 fn unwritten(path: &Path, error: WriteError) -> Failure {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    match (error, folder) {
-        (WriteError::File { .. }, Some(folder)) if !folder.exists() => Failure::work(format!(
-            "{}: the folder {} does not exist; create it, or name another",
-            path.display(),
-            folder.display()
-        )),
-        (error @ WriteError::File { .. }, _) => Failure::work(error),
+    match (error, missing_folder(path)) {
+        (WriteError::File { .. }, Some(failure)) => failure,
+        (error @ WriteError::File { .. }, None) => Failure::work(error),
         (other, _) => Failure::work(format!("{}: {other}", path.display())),
     }
 }

@@ -152,6 +152,7 @@ const NOT_IN_JOBS: [(&[&str], &str); 3] = [
             "explain",
             "explain-pixel",
             "no-render",
+            "frontier",
         ],
         "is not for jobs, which draw images; leave it out",
     ),

@@ -42,6 +42,15 @@ pub(crate) fn image_name(text: &str) -> Result<Template, String> {
     }
 }
 
+/// The name of a plot or a table.
+pub(crate) fn plot_name(text: &str) -> Result<Template, String> {
+    let ending = Path::new(text).extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("svg" | "csv") => Template::parse(text),
+        _ => Err("use a name that ends in .svg for a plot, or in .csv for a table".to_owned()),
+    }
+}
+
 /// A file name with variables, such as `{model}_{n:3}.png`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Template(Vec<Piece>);

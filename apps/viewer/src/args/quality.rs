@@ -6,11 +6,12 @@ use std::time::Duration;
 use trigon_scene::quality::{Quality, TimeBudget};
 use trigon_scene::{OcclusionSampling, ShadingModel, Shadows};
 
+use super::output::{Template, plot_name};
 use super::values;
 use crate::ladder::QualityStep;
 
 /// Flags for the quality as a whole.
-#[derive(Clone, Copy, Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(crate) struct QualityArgs {
     /// Set samples, shading, shadows and rays together: draft, standard, default, high or reference
     ///
@@ -31,6 +32,24 @@ pub(crate) struct QualityArgs {
     /// changed.
     #[arg(long, value_name = "TIME", value_parser = values::duration, allow_negative_numbers = true, conflicts_with = "replay", help_heading = "Look")]
     pub(crate) time_budget: Option<Duration>,
+
+    /// Measure what the image costs at many settings, and how wrong it then is: a plot (.svg) or a table (.csv)
+    ///
+    /// Each setting is drawn several times, in random order. Errors are relative to --preset=reference at this size, not
+    /// to the exact image. The settings that no other one beats in both time and error are printed. All flags for the
+    /// camera, the look and effects count; --time-budget marks what that time buys. The name has the variables of
+    /// --output.
+    #[arg(
+        long,
+        value_name = "FILE",
+        value_parser = plot_name,
+        conflicts_with_all = [
+            "output", "capture", "replay", "reference", "compare", "check", "explain", "explain_pixel", "no_render",
+            "turntable", "cameras", "json",
+        ],
+        help_heading = "Files"
+    )]
+    pub(crate) frontier: Option<Template>,
 }
 
 /// Quality settings from individual flags; `None` if not given.
@@ -71,6 +90,11 @@ pub(crate) struct Limit {
 impl Limit {
     pub(crate) fn new(time: Duration, insisted: Insisted) -> Self {
         Self { time, insisted }
+    }
+
+    /// The time.
+    pub(crate) fn time(&self) -> Duration {
+        self.time
     }
 
     /// A budget without knowledge of any scene yet.

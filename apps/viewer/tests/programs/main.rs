@@ -4,6 +4,7 @@
 mod batch;
 mod comparing;
 mod facts;
+mod frontier;
 mod glass;
 mod moments;
 mod outputs;

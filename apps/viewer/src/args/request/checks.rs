@@ -20,10 +20,17 @@ pub(super) fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> 
 /// Several images need several names. F3D draws the first model and only warns about the rest,
 /// which scripts do not notice.
 pub(super) fn check_output(mode: &Mode, files: usize) -> Result<(), String> {
-    let Mode::Image { output, capture } = mode else { return Ok(()) };
     if files < 2 {
         return Ok(());
     }
+    if let Mode::Frontier(template) = mode
+        && !template.tells_models_apart()
+    {
+        return Err(format!(
+            "{files} files give {files} plots, but --frontier names one; write {{model}} or {{n}} in it (--frontier '{{model}}.svg')"
+        ));
+    }
+    let Mode::Image { output, capture } = mode else { return Ok(()) };
     if capture.is_some() {
         return Err(format!(
             "{files} files give {files} images, but --capture stores one; name one file, or draw them in one scene with --multi-file-mode=all"

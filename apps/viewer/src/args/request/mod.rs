@@ -185,6 +185,8 @@ pub(crate) enum Mode {
         /// Where the image goes.
         output: Destination,
     },
+    /// Measure what their images cost and how wrong they are; the plot or the table goes to this file.
+    Frontier(Template),
     /// Explain this pixel of their images.
     ExplainPixel([u32; 2]),
     /// Say what is wrong with the models.
@@ -307,6 +309,7 @@ fn mode(raw: &RawArgs) -> Mode {
         _ if raw.list_rendering_backends => Mode::ListBackends,
         _ if let Some(Some(purpose)) = raw.check => Mode::Check(purpose),
         _ if raw.no_render == Some(true) => Mode::Inspect,
+        _ if let Some(output) = &raw.quality.frontier => Mode::Frontier(output.clone()),
         _ if let Some(pixel) = raw.explain_pixel => Mode::ExplainPixel(pixel),
         (_, Some(explanation)) => Mode::Explain(explanation),
         (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
@@ -518,7 +521,7 @@ fn insisted(raw: &RawArgs) -> Result<Insisted, String> {
 /// The time budget for an image.
 fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
     let Some(time) = raw.quality.time_budget else { return Ok(None) };
-    if !matches!(mode, Mode::Image { .. }) {
+    if !matches!(mode, Mode::Image { .. } | Mode::Frontier(_)) {
         return Err("--time-budget needs an image, and none is drawn; name one (--output image.png), or choose a --preset".to_owned());
     }
     Ok(Some(Limit::new(time, insisted(raw)?)))
