@@ -283,6 +283,13 @@ impl Pacing {
         animated == AnimationFrames::Wanted || self.moved.is_some_and(|moved| now < moved + REST)
     }
 
+    /// Whether no image is under way or due.
+    pub(crate) fn is_resting(&self, now: Duration, animated: AnimationFrames) -> bool {
+        let is_idle = self.under_way.is_none() && self.occupied.is_none();
+        let is_final = matches!(self.shown, ScreenImage::Full(_)) && self.next_step().is_none();
+        is_idle && is_final && !self.is_moving(now, animated)
+    }
+
     /// A frame begins: the image to be begun for it, if any.
     pub(crate) fn begin(&mut self, now: Duration, animated: AnimationFrames) -> Option<Quality> {
         self.drawn = Some(now);

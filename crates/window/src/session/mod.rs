@@ -340,6 +340,7 @@ impl<'a> Session<'a> {
     /// Runs a pass of the interface.
     fn run_interface(&mut self, now: Duration) {
         self.stage.set_moving(self.pacing.is_moving(now, self.frames()));
+        self.stage.set_resting(self.pacing.is_resting(now, self.frames()));
         let (viewport, scale) = (self.stage.viewport(), self.stage.scale());
         let moment = Moment { now, viewport, scale };
         let shown_by = self.gallery.camera();

@@ -147,6 +147,7 @@ pub struct Stage {
     scale: f64,
     report: FrameReport,
     is_moving: bool,
+    is_resting: bool,
     quality_report: Option<QualityReport>,
     progress: Option<Progress>,
     /// How much of the image in progress is drawn, in percent, if it takes long.
@@ -211,6 +212,7 @@ impl Stage {
             scale: 1.0,
             report: FrameReport::default(),
             is_moving: false,
+            is_resting: false,
             quality_report: None,
             progress: None,
             percent: None,
@@ -488,6 +490,17 @@ impl Stage {
     /// Whether images follow one another.
     pub(crate) fn is_moving(&self) -> bool {
         self.is_moving
+    }
+
+    /// Whether the window neither draws an image of the scene nor is about to: nothing moves, and the image on screen is
+    /// refined as far as [`Stage::refinement`] and [`Stage::comparison`] say. For an application that measures times.
+    #[must_use]
+    pub fn is_resting(&self) -> bool {
+        self.is_resting
+    }
+
+    pub(crate) fn set_resting(&mut self, is_resting: bool) {
+        self.is_resting = is_resting;
     }
 
     pub(crate) fn set_moving(&mut self, is_moving: bool) {

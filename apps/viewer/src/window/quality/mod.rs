@@ -1,14 +1,19 @@
-//! The accuracy panel: each setting that trades accuracy for time, the time of the image, and its
-//! difference from the reference.
+//! The accuracy panel: each setting that trades accuracy for time, the time of the image, its
+//! difference from the reference, and both at many other settings.
 
 mod costs;
+mod frontier;
+mod measurement;
+mod plot;
 mod settings;
 
 use std::time::Duration;
 
+use trigon_scene::quality::Quality;
 use trigon_window::{Comparison, Difference, QualityReport, Refinement, Stage, choose, egui};
 
 use costs::Costs;
+use frontier::FrontierSection;
 use settings::Setting;
 
 use crate::ladder::QualityStep;
@@ -35,6 +40,7 @@ const BUDGETS: std::ops::RangeInclusive<f64> = 5.0..=500.0;
 pub(super) struct QualityPanel {
     shown: bool,
     costs: Costs,
+    frontier: FrontierSection,
 }
 
 impl QualityPanel {
@@ -57,6 +63,8 @@ impl QualityPanel {
 
     fn set_shown(&mut self, shown: bool, stage: &mut Stage) {
         self.shown = shown;
+        // Nobody would tell it when the window draws.
+        self.frontier.cancel();
         if stage.comparison != Comparison::Shown {
             stage.comparison = self.usual_comparison();
         }
@@ -116,6 +124,10 @@ impl QualityPanel {
         ui.separator();
         at_rest(ui, stage);
         budget(ui, stage);
+        ui.separator();
+        if let Some(quality) = self.frontier.show(ui, stage) {
+            self.choose(stage, quality);
+        }
     }
 
     /// Whole choices with a name, from the quickest on; the current one is lit.
@@ -123,12 +135,16 @@ impl QualityPanel {
         ui.horizontal_wrapped(|ui| {
             for step in QualityStep::ALL {
                 if ui.selectable_label(step.is_current(&stage.settings), step.name()).clicked() {
-                    step.quality().apply(&mut stage.settings);
-                    stage.refinement = Refinement::Settings;
-                    self.costs.changed_all();
+                    self.choose(stage, step.quality());
                 }
             }
         });
+    }
+
+    fn choose(&mut self, stage: &mut Stage, quality: Quality) {
+        quality.apply(&mut stage.settings);
+        stage.refinement = Refinement::Settings;
+        self.costs.changed_all();
     }
 
     /// A setting, its choices, and what the last change of it cost.

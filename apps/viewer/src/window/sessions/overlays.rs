@@ -157,3 +157,14 @@ fn clicks_measure_and_escape_ends_it() {
         assert!(window.pixels() == before, "without a trace");
     });
 }
+
+#[test]
+fn a_view_is_measured_in_the_background_until_it_is_cancelled() {
+    with_window("", SMALL, |window| {
+        shift(window, 'd');
+        click(window, "Measure this view");
+        assert!(window.widgets("Measure this view").is_empty(), "it has begun");
+        click(window, "Cancel");
+        assert_eq!(window.widgets("Measure again").len(), 1, "it has ended");
+    });
+}
