@@ -5,6 +5,7 @@ mod camera;
 mod errors;
 mod facts;
 mod frame;
+mod frontier;
 mod load;
 mod many;
 mod material;

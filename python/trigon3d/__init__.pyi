@@ -263,6 +263,16 @@ class Scene:
     def explain_pixel(
         self, x: int, y: int, width: int, height: int, camera: Camera | None = None, **named: Any
     ) -> dict[str, Any]: ...
+    def frontier(
+        self,
+        width: int,
+        height: int,
+        camera: Camera | None = None,
+        *,
+        rounds: int = 5,
+        seed: int = 0,
+        **named: Any,
+    ) -> dict[str, Any]: ...
     def check(self) -> list[dict[str, str]]: ...
     def plan(self, width: int, height: int, camera: Camera | None = None, **named: Any) -> dict[str, str]: ...
 
