@@ -9,8 +9,16 @@ use trigon_scene::Shadows;
 use trigon_scene::quality::{Quality, candidates};
 use trigon_study::frames::name;
 
-/// Milliseconds a frame, and the root mean square error.
-type Recorded = BTreeMap<String, [f64; 2]>;
+/// The milliseconds of a frame, between which values half of the frames lay, and the root mean square error.
+#[derive(Clone, Copy)]
+struct Figures {
+    time: f64,
+    low: f64,
+    high: f64,
+    error: f64,
+}
+
+type Recorded = BTreeMap<String, Figures>;
 
 /// By scene, and by the name of the quality.
 fn recorded() -> BTreeMap<String, Recorded> {
@@ -28,28 +36,31 @@ fn recorded() -> BTreeMap<String, Recorded> {
                 _ => cells.last_mut().expect("there is one").push(character),
             }
         }
-        let [question, scene, variant, _, _, _, _, _, quantity, value, ..] = &cells[..] else { continue };
-        let number = match quantity.as_str() {
-            "ms per frame" => 0,
-            "RMSE in linear light" => 1,
-            _ => continue,
+        let [question, scene, variant, _, _, _, _, _, quantity, value, low, high] = &cells[..] else {
+            continue;
         };
         // A name ends with that of its preset.
         if question == "frames" && !scene.starts_with("all scenes") {
             let variant = variant.split(" (").next().expect("there is one").to_owned();
-            let pair = scenes.entry(scene.clone()).or_default().entry(variant).or_insert([f64::NAN; 2]);
-            pair[number] = value.parse().expect("a number");
+            let unknown = Figures { time: f64::NAN, low: f64::NAN, high: f64::NAN, error: f64::NAN };
+            let figures = scenes.entry(scene.clone()).or_default().entry(variant).or_insert(unknown);
+            let [value, low, high] = [value, low, high].map(|number| number.parse().expect("a number"));
+            match quantity.as_str() {
+                "ms per frame" => (figures.time, figures.low, figures.high) = (value, low, high),
+                "RMSE in linear light" => figures.error = value,
+                _ => {}
+            }
         }
     }
     for qualities in scenes.values_mut() {
-        qualities.retain(|_, pair| pair.iter().all(|value| value.is_finite()));
+        qualities.retain(|_, figures| figures.time.is_finite() && figures.error.is_finite());
     }
     scenes.retain(|_, qualities| qualities.len() > 50);
     scenes
 }
 
 /// What was recorded for a quality; scenes without shadows have one name for both of their ways.
-fn of(quality: Quality, recorded: &Recorded) -> [f64; 2] {
+fn of(quality: Quality, recorded: &Recorded) -> Figures {
     let own = |quality| recorded.get(name(quality).split(" (").next().expect("there is one"));
     let other = Quality {
         shadows: match quality.shadows {
@@ -75,8 +86,9 @@ fn no_quality_would_buy_much_more_accuracy_for_the_same_time() {
     let mut logarithms = Vec::new();
     for (scene, all) in &scenes {
         for budget in [5.0, 8.0, 12.0, 16.0, 20.0, 33.0, 50.0, 100.0] {
-            let least = |qualities: &mut dyn Iterator<Item = [f64; 2]>| {
-                qualities.filter(|[time, _]| *time <= budget).map(|[_, error]| error).fold(f64::MAX, f64::min)
+            let least = |qualities: &mut dyn Iterator<Item = Figures>| {
+                let within = qualities.filter(|figures| figures.time <= budget);
+                within.map(|figures| figures.error).fold(f64::MAX, f64::min)
             };
             let best = least(&mut all.values().copied());
             let chosen = least(&mut candidates().into_iter().map(|quality| of(quality, all)));
@@ -90,4 +102,18 @@ fn no_quality_would_buy_much_more_accuracy_for_the_same_time() {
     assert!(logarithms.len() > 40, "{} budgets", logarithms.len());
     let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
     assert!(mean < trigon_math::elementary::ln(1.1), "in the geometric mean e^{mean}");
+}
+
+/// A quality that another one beats beyond doubt in most scenes would only cost calibration.
+#[test]
+fn no_candidate_is_dominated_in_most_scenes() {
+    let scenes = recorded();
+    for candidate in candidates() {
+        let is_dominated = |all: &Recorded| {
+            let own = of(candidate, all);
+            all.values().any(|other| other.high < own.low && other.error <= own.error)
+        };
+        let count = scenes.values().filter(|all| is_dominated(all)).count();
+        assert!(2 * count <= scenes.len(), "{candidate} is dominated in {count} scenes");
+    }
 }
