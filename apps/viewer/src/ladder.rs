@@ -5,7 +5,7 @@ use std::str::FromStr;
 #[cfg(any(test, feature = "window"))]
 use trigon_scene::RenderSettings;
 use trigon_scene::quality::{Preset, Quality, UnknownPreset};
-use trigon_scene::{OcclusionSampling, ShadingModel, Shadows};
+use trigon_scene::{RaySampling, ShadingModel, Shadows};
 
 /// A step of the ladder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ impl QualityStep {
                 shading: ShadingModel::Phong,
                 shadows: Shadows::Maps { resolution: 2048 },
                 occlusion_rays: 16,
-                occlusion_sampling: OcclusionSampling::Full,
+                occlusion_sampling: RaySampling::Full,
                 glass_bounces: 8,
             },
         }

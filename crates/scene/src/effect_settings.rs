@@ -120,7 +120,7 @@ pub struct AmbientOcclusion {
     /// The distance within which surfaces count, in metres.
     pub distance: f32,
     /// Where the rays start.
-    pub sampling: OcclusionSampling,
+    pub sampling: RaySampling,
 }
 
 impl AmbientOcclusion {
@@ -130,13 +130,13 @@ impl AmbientOcclusion {
     /// With all rays at every sample. See the fields.
     #[must_use]
     pub fn new(rays: u32, distance: f32) -> Self {
-        Self { rays, distance, sampling: OcclusionSampling::Full }
+        Self { rays, distance, sampling: RaySampling::Full }
     }
 }
 
 /// Where the rays of ambient occlusion start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum OcclusionSampling {
+pub enum RaySampling {
     /// All of them at every sample.
     #[default]
     Full,

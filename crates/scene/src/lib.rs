@@ -73,7 +73,7 @@ pub use coarse::CoarseMeshWork;
 pub use display::Display;
 pub use effect::Effect;
 pub use effect_settings::{
-    AmbientOcclusion, EffectSettings, Exposure, Fog, MetalReflection, OcclusionSampling, Outline, Shadows,
+    AmbientOcclusion, EffectSettings, Exposure, Fog, MetalReflection, Outline, RaySampling, Shadows,
     SightRays, ToneMapping,
 };
 pub use effects::EffectCounts;

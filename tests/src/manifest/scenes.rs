@@ -5,8 +5,8 @@ use std::sync::Arc;
 use trigon_math::Vec3;
 use trigon_raster::ExecuteSettings;
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, Frame, OcclusionSampling,
-    Outline, RenderSettings, Renderer, Scene, Shadows, SightRays, Sky, Style, ToneMapping, showcase,
+    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, Frame, Outline, RaySampling,
+    RenderSettings, Renderer, Scene, Shadows, SightRays, Sky, Style, ToneMapping, showcase,
 };
 
 /// Their names.
@@ -30,7 +30,7 @@ fn settings(scene: &Scene) -> [RenderSettings; 3] {
     let occlusion = |rays, sampling| Some(AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, 1.0) });
     let effects = EffectSettings {
         shadows: Shadows::Rays,
-        ambient_occlusion: occlusion(3, OcclusionSampling::Full),
+        ambient_occlusion: occlusion(3, RaySampling::Full),
         environment: Some(Arc::new(Environment::from_sky(&Sky::default()))),
         sight: SightRays::all(3),
         fog: Some(Fog { color: Vec3::splat(0.5), density: 0.05 }),
@@ -49,7 +49,7 @@ fn settings(scene: &Scene) -> [RenderSettings; 3] {
     };
     (all.outputs.radiance, all.outputs.depth, all.outputs.ids) = (true, true, true);
     let mut shared = all.clone();
-    shared.effects.ambient_occlusion = occlusion(32, OcclusionSampling::Shared);
+    shared.effects.ambient_occlusion = occlusion(32, RaySampling::Shared);
     let mut maps = RenderSettings { background: Background::default(), ..shared.clone() };
     (maps.effects.shadows, maps.effects.environment) = (Shadows::Maps { resolution: 128 }, None);
     [all, shared, maps]

@@ -7,8 +7,8 @@ use std::sync::{Arc, LazyLock};
 use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection,
-    OcclusionSampling, Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky, ToneMapping,
+    AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection, RaySampling,
+    Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky, ToneMapping,
 };
 
 use super::quality::Insisted;
@@ -50,7 +50,7 @@ pub(crate) struct EffectArgs {
     /// Where these rays start: full is at every sample; shared takes a fraction of the time, and blurs a little
     /// [default: full, or from --preset]
     #[arg(long, value_name = "WAY", help_heading = "Effects")]
-    pub(crate) ambient_occlusion_sampling: Option<OcclusionSamplingArg>,
+    pub(crate) ambient_occlusion_sampling: Option<RaySamplingArg>,
 
     /// The distance within which surfaces occlude ambient light, in metres
     #[arg(long, value_name = "METRES", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
@@ -133,7 +133,7 @@ pub(crate) enum ShadowsArg {
 
 /// Where rays of ambient occlusion start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum OcclusionSamplingArg {
+pub(crate) enum RaySamplingArg {
     Full,
     Shared,
 }
@@ -209,10 +209,10 @@ impl EffectArgs {
         })
     }
 
-    fn occlusion_sampling(&self) -> Option<OcclusionSampling> {
+    fn occlusion_sampling(&self) -> Option<RaySampling> {
         Some(match self.ambient_occlusion_sampling? {
-            OcclusionSamplingArg::Full => OcclusionSampling::Full,
-            OcclusionSamplingArg::Shared => OcclusionSampling::Shared,
+            RaySamplingArg::Full => RaySampling::Full,
+            RaySamplingArg::Shared => RaySampling::Shared,
         })
     }
 

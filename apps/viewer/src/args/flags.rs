@@ -1,7 +1,7 @@
 //! From settings back to flags: the words that set what a window shows.
 
 use trigon_scene::{
-    Display, Exposure, MetalReflection, OcclusionSampling, Reflection, RenderSettings, ShadingModel, Shadows,
+    Display, Exposure, MetalReflection, RaySampling, Reflection, RenderSettings, ShadingModel, Shadows,
     SightRays, Style, ToneMapping,
 };
 
@@ -99,7 +99,7 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
         add(true, "ambient-occlusion", &true);
         add(true, "ambient-occlusion-rays", &occlusion.rays);
         add(true, "ambient-occlusion-distance", &occlusion.distance);
-        let is_shared = occlusion.sampling == OcclusionSampling::Shared;
+        let is_shared = occlusion.sampling == RaySampling::Shared;
         add(true, "ambient-occlusion-sampling", &if is_shared { "shared" } else { "full" });
     }
     add(effects.metal_reflection == MetalReflection::Ambient, "metal-reflection", &"ambient");

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use trigon_scene::quality::{Quality, TimeBudget};
-use trigon_scene::{OcclusionSampling, ShadingModel, Shadows};
+use trigon_scene::{RaySampling, ShadingModel, Shadows};
 
 use super::output::{Template, plot_name};
 use super::values;
@@ -60,7 +60,7 @@ pub(crate) struct Insisted {
     pub(crate) shading: Option<ShadingModel>,
     pub(crate) shadows: Option<Shadows>,
     pub(crate) occlusion_rays: Option<u32>,
-    pub(crate) occlusion_sampling: Option<OcclusionSampling>,
+    pub(crate) occlusion_sampling: Option<RaySampling>,
 }
 
 impl Insisted {

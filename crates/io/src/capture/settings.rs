@@ -4,7 +4,7 @@ use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
     AmbientOcclusion, Background, Display, EffectSettings, Environment, Exposure, Fog, Lighting,
-    MetalReflection, OcclusionSampling, Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows,
+    MetalReflection, Outline, Outputs, RaySampling, Reflection, RenderSettings, ShadingModel, Shadows,
     SightRays, Sky, Style, ToneMapping,
 };
 
@@ -48,8 +48,8 @@ impl Stored for AmbientOcclusion {
     fn write(&self, to: &mut CaptureWriter<'_>) {
         let rays = self.rays & !SHARED_RAYS;
         match self.sampling {
-            OcclusionSampling::Full => rays,
-            OcclusionSampling::Shared => rays | SHARED_RAYS,
+            RaySampling::Full => rays,
+            RaySampling::Shared => rays | SHARED_RAYS,
         }
         .write(to);
         self.distance.write(to);
@@ -58,7 +58,7 @@ impl Stored for AmbientOcclusion {
     fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
         let (number, distance) = (u32::read(from)?, f32::read(from)?);
         let rays = number & !SHARED_RAYS;
-        let sampling = if rays == number { OcclusionSampling::Full } else { OcclusionSampling::Shared };
+        let sampling = if rays == number { RaySampling::Full } else { RaySampling::Shared };
         Ok(Self { sampling, ..Self::new(rays, distance) })
     }
 }

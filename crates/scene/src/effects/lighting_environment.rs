@@ -10,7 +10,7 @@ use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, Simd};
 
 use super::metal_studio::{MetalStudio, StudioOnMetal};
-use super::rays::{AmbientRays, OcclusionBuffer, Optics, RayPart, RayScene, RayStarts};
+use super::rays::{AmbientRays, OpennessBuffer, Optics, RayPart, RayScene, RayStarts};
 use super::shadow::ShadowMaps;
 use crate::effect_settings::Fog;
 use crate::environment::Surroundings;
@@ -32,7 +32,7 @@ pub(crate) struct LightingEnvironment {
     pub(crate) shadow_rays: bool,
     pub(crate) ambient_rays: Option<AmbientRays>,
     /// What they found, if neighbours share it.
-    pub(crate) occlusion_buffer: Option<OcclusionBuffer>,
+    pub(crate) occlusion_buffer: Option<OpennessBuffer>,
     /// The maximum number of surfaces that a sight ray meets; 0 for no such rays.
     pub(crate) bounces: u32,
     /// Whether mirrors and the reflections in glass have sight rays, and not only what is behind glass.

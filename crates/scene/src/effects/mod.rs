@@ -19,7 +19,7 @@ pub(crate) use finish::{draw_outline, encode, lay_on_background, map_tones};
 pub(crate) use lighting_environment::{FogModel, LightingEnvironment, VisibleBackdrop};
 pub(crate) use metal_studio::MetalStudio;
 pub(crate) use rays::{
-    AmbientRays, Glass, OcclusionBuffer, Optics, RayCache, RayPart, RayStarts, SmallView, rows,
+    AmbientRays, Glass, OpennessBuffer, Optics, RayCache, RayPart, RayStarts, SmallView, rows,
 };
 pub(crate) use shadow::{LampPose, PlacedMap, ShadowMap, ShadowMaps, View, views};
 pub(crate) use sight::{SightStart, refracted};

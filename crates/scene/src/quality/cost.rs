@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::Quality;
-use crate::effect_settings::{OcclusionSampling, Shadows};
+use crate::effect_settings::{RaySampling, Shadows};
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The units of work that make up a frame's time: the frame itself (its vertices and triangles),
@@ -114,9 +114,9 @@ fn work(settings: &RenderSettings) -> [f64; UNITS] {
     let when = |is_so: bool| if is_so { shaded } else { 0.0 };
     let occlusion_rays = f64::from(quality.occlusion_rays)
         * match quality.occlusion_sampling {
-            OcclusionSampling::Full => shaded,
+            RaySampling::Full => shaded,
             // A sixteenth of them in a quarter of the pixels.
-            OcclusionSampling::Shared => pixels / 64.0,
+            RaySampling::Shared => pixels / 64.0,
         };
     [
         1.0,

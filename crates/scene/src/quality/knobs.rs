@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::effect_settings::{AmbientOcclusion, OcclusionSampling, Shadows, SightRays};
+use crate::effect_settings::{AmbientOcclusion, RaySampling, Shadows, SightRays};
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The settings that trade accuracy for time.
@@ -21,7 +21,7 @@ pub struct Quality {
     /// them and where they start unchanged.
     pub occlusion_rays: u32,
     /// Where they start.
-    pub occlusion_sampling: OcclusionSampling,
+    pub occlusion_sampling: RaySampling,
     /// The maximum number of surfaces that a ray through glass meets in frames that trace glass
     /// alone, 1 to 16; 0 leaves it unchanged. (Its `Display` leaves it out: most scenes have no
     /// glass.)
@@ -41,7 +41,7 @@ impl Quality {
             occlusion_rays: effects.ambient_occlusion.map_or(0, |occlusion| occlusion.rays),
             occlusion_sampling: effects
                 .ambient_occlusion
-                .map_or(OcclusionSampling::Full, |occlusion| occlusion.sampling),
+                .map_or(RaySampling::Full, |occlusion| occlusion.sampling),
             glass_bounces: match effects.sight {
                 SightRays::Glass { bounces } => bounces,
                 SightRays::Off | SightRays::All { .. } => 0,
@@ -100,9 +100,9 @@ impl Quality {
         };
         // Few rays at every sample show more than many that pixels share.
         let occlusion = match self.occlusion_sampling {
-            OcclusionSampling::Shared => self.occlusion_rays.min(AmbientOcclusion::MOST_RAYS),
-            OcclusionSampling::Full if self.occlusion_rays == 0 => 0,
-            OcclusionSampling::Full => AmbientOcclusion::MOST_RAYS + self.occlusion_rays,
+            RaySampling::Shared => self.occlusion_rays.min(AmbientOcclusion::MOST_RAYS),
+            RaySampling::Full if self.occlusion_rays == 0 => 0,
+            RaySampling::Full => AmbientOcclusion::MOST_RAYS + self.occlusion_rays,
         };
         [self.shaded_samples(), self.covered_samples(), shading, shadows, occlusion, self.glass_bounces]
     }
@@ -141,9 +141,9 @@ impl fmt::Display for Quality {
         }
         match (self.occlusion_rays, self.occlusion_sampling) {
             (0, _) => Ok(()),
-            (1, OcclusionSampling::Full) => write!(f, ", 1 occlusion ray"),
-            (rays, OcclusionSampling::Full) => write!(f, ", {rays} occlusion rays"),
-            (rays, OcclusionSampling::Shared) => write!(f, ", {rays} shared occlusion rays"),
+            (1, RaySampling::Full) => write!(f, ", 1 occlusion ray"),
+            (rays, RaySampling::Full) => write!(f, ", {rays} occlusion rays"),
+            (rays, RaySampling::Shared) => write!(f, ", {rays} shared occlusion rays"),
         }
     }
 }
@@ -183,7 +183,7 @@ impl Preset {
                 shading,
                 shadows: maps,
                 occlusion_rays: 32,
-                occlusion_sampling: OcclusionSampling::Shared,
+                occlusion_sampling: RaySampling::Shared,
                 glass_bounces: 4,
             },
             Self::Standard => {
@@ -193,7 +193,7 @@ impl Preset {
                 samples_per_axis: 4,
                 shadows: Shadows::Rays,
                 occlusion_rays: 16,
-                occlusion_sampling: OcclusionSampling::Full,
+                occlusion_sampling: RaySampling::Full,
                 ..Self::Standard.quality()
             },
             Self::Reference => Quality { samples: 16, occlusion_rays: 64, ..Self::High.quality() },
@@ -297,7 +297,7 @@ mod tests {
         assert!(quality.to_string().starts_with("2×2 samples of 4,"), "{quality}");
         assert!(quality.to_string().contains("shadow maps of 512 texels"), "{quality}");
         assert_eq!((quality.shaded_samples(), quality.covered_samples()), (4, 16), "of a pixel");
-        (quality.occlusion_rays, quality.occlusion_sampling) = (32, OcclusionSampling::Shared);
+        (quality.occlusion_rays, quality.occlusion_sampling) = (32, RaySampling::Shared);
         assert!(quality.to_string().ends_with(", 32 shared occlusion rays"), "{quality}");
     }
 

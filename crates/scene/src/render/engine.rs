@@ -21,8 +21,8 @@ use super::shared_frames::{ReusableFrame, SharedFrames};
 use super::wire::VertexLists;
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effect_settings::OcclusionSampling;
-use crate::effects::{Counts, EffectCounts, LightingEnvironment, OcclusionBuffer, SmallView};
+use crate::effect_settings::RaySampling;
+use crate::effects::{Counts, EffectCounts, LightingEnvironment, OpennessBuffer, SmallView};
 use crate::frame::{Frame, resize};
 use crate::outputs;
 use crate::outputs::Needed;
@@ -245,7 +245,7 @@ impl Engine {
     ) -> Result<LightingEnvironment, TargetError> {
         let mut lighting = self.caches.lighting(prepared, plan, rasterizer)?;
         let is_shared =
-            lighting.ambient_rays.as_ref().is_some_and(|rays| rays.sampling == OcclusionSampling::Shared);
+            lighting.ambient_rays.as_ref().is_some_and(|rays| rays.sampling == RaySampling::Shared);
         if is_shared {
             let draws = Composer::of_openness(prepared, &lighting, &self.vertex_lists);
             let (buffer, stats) = draw_openness(prepared, &draws, rasterizer)?;
@@ -337,7 +337,7 @@ fn draw_openness(
     prepared: &PreparedScene<'_>,
     composer: &Composer<'_>,
     rasterizer: &mut Rasterizer,
-) -> Result<(OcclusionBuffer, Stats), TargetError> {
+) -> Result<(OpennessBuffer, Stats), TargetError> {
     let RenderSettings { width, height, .. } = *prepared.settings;
     let projection = &prepared.camera.projection;
     let view = SmallView::new(projection, prepared.eye.projection(), [width, height]);
@@ -355,7 +355,7 @@ fn draw_openness(
     let stats = rasterizer.draw(&pass, &mut target);
     let distance = DepthToDistance::new(projection, prepared.settings.aspect());
     depths.iter_mut().for_each(|depth| *depth = distance.at(*depth));
-    Ok((OcclusionBuffer::new(view, &found, &depths, rasterizer), stats))
+    Ok((OpennessBuffer::new(view, &found, &depths, rasterizer), stats))
 }
 
 /// How many samples a frame has.

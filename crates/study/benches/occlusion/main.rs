@@ -17,18 +17,18 @@ use std::time::Instant;
 use scenes::Subject;
 use trigon_math::Vec3;
 use trigon_scene::{
-    AmbientOcclusion, Background, Effect, Exposure, Frame, Lighting, OcclusionSampling, Outputs,
-    RenderSettings, Renderer,
+    AmbientOcclusion, Background, Effect, Exposure, Frame, Lighting, Outputs, RaySampling, RenderSettings,
+    Renderer,
 };
 
 /// What is compared; the first one is the measure of errors.
-const KINDS: [(u32, OcclusionSampling); 6] = [
-    (16, OcclusionSampling::Full),
-    (64, OcclusionSampling::Full),
-    (16, OcclusionSampling::Shared),
-    (32, OcclusionSampling::Shared),
-    (64, OcclusionSampling::Shared),
-    (128, OcclusionSampling::Shared),
+const KINDS: [(u32, RaySampling); 6] = [
+    (16, RaySampling::Full),
+    (64, RaySampling::Full),
+    (16, RaySampling::Shared),
+    (32, RaySampling::Shared),
+    (64, RaySampling::Shared),
+    (128, RaySampling::Shared),
 ];
 
 /// How often each image is timed.
@@ -49,7 +49,7 @@ fn report(subject: &Subject) -> Result<(), Box<dyn Error>> {
     let truth = truth::openness(&surfaces(&white)?, &white);
     let errors = KINDS.iter().map(|&kind| Ok(error(&light(&white, kind)?, &truth)));
     let errors: Vec<f64> = errors.collect::<Result<_, Box<dyn Error>>>()?;
-    let kinds: Vec<Option<(u32, OcclusionSampling)>> = std::iter::once(None).chain(KINDS.map(Some)).collect();
+    let kinds: Vec<Option<(u32, RaySampling)>> = std::iter::once(None).chain(KINDS.map(Some)).collect();
     let costs = costs(subject, &kinds)?;
     println!("  without: {:.2} ms", costs[0].milliseconds);
     for (((count, sampling), error), cost) in KINDS.iter().zip(&errors).zip(&costs[1..]) {
@@ -71,7 +71,7 @@ struct Cost {
     rays: u64,
 }
 
-fn costs(subject: &Subject, kinds: &[Option<(u32, OcclusionSampling)>]) -> Result<Vec<Cost>, Box<dyn Error>> {
+fn costs(subject: &Subject, kinds: &[Option<(u32, RaySampling)>]) -> Result<Vec<Cost>, Box<dyn Error>> {
     let settings = |kind: &Option<_>| settings(subject, *kind, false);
     let mut renderers: Vec<(Renderer, Frame)> =
         kinds.iter().map(|kind| (Renderer::new(settings(kind)), Frame::default())).collect();
@@ -109,14 +109,14 @@ fn surfaces(subject: &Subject) -> Result<Frame, Box<dyn Error>> {
 }
 
 /// The light of each pixel.
-fn light(white: &Subject, kind: (u32, OcclusionSampling)) -> Result<Vec<f64>, Box<dyn Error>> {
+fn light(white: &Subject, kind: (u32, RaySampling)) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut settings = settings(white, Some(kind), true);
     settings.outputs.radiance = true;
     let frame = Renderer::new(settings).render(&white.scene, &white.camera)?;
     Ok(frame.radiance.iter().flatten().map(|light| f64::from(light.x)).collect())
 }
 
-fn settings(subject: &Subject, kind: Option<(u32, OcclusionSampling)>, is_white: bool) -> RenderSettings {
+fn settings(subject: &Subject, kind: Option<(u32, RaySampling)>, is_white: bool) -> RenderSettings {
     let mut settings = RenderSettings {
         samples_per_axis: 1,
         threads: NonZeroUsize::new(1),

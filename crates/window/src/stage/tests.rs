@@ -5,9 +5,7 @@ use crate::refinement::Wanted;
 use crate::shown;
 use trigon_mesh::primitives;
 use trigon_scene::quality::Preset;
-use trigon_scene::{
-    AmbientOcclusion, Material, OcclusionSampling, Outputs, Shadows, SightRays, VertexPoints,
-};
+use trigon_scene::{AmbientOcclusion, Material, Outputs, RaySampling, Shadows, SightRays, VertexPoints};
 
 fn stage() -> Stage {
     let mut stage = Stage::new("test");
@@ -134,7 +132,7 @@ fn drafts_have_no_more_rays_than_the_draft_preset() {
         assert_eq!(effects.shadows, most.shadows);
         assert_eq!(
             effects.ambient_occlusion.map(|occlusion| (occlusion.rays, occlusion.sampling)),
-            Some((rays.min(most.occlusion_rays), OcclusionSampling::Shared))
+            Some((rays.min(most.occlusion_rays), RaySampling::Shared))
         );
     }
     stage.settings.effects.shadows = Shadows::Off;

@@ -1,7 +1,7 @@
 //! The settings that trade accuracy for time, with their choices.
 
 use trigon_scene::{
-    AmbientOcclusion, OcclusionSampling, Reflection, RenderSettings, ShadingModel, Shadows, SightRays,
+    AmbientOcclusion, RaySampling, Reflection, RenderSettings, ShadingModel, Shadows, SightRays,
 };
 
 /// One of them.
@@ -21,16 +21,16 @@ pub(super) enum Setting {
 const OCCLUSION_DISTANCE: f32 = 1.0;
 
 /// Rays of ambient occlusion, from the quickest to the most accurate.
-const OCCLUSION: [(u32, OcclusionSampling); 9] = [
-    (0, OcclusionSampling::Full),
-    (32, OcclusionSampling::Shared),
-    (64, OcclusionSampling::Shared),
-    (4, OcclusionSampling::Full),
-    (8, OcclusionSampling::Full),
-    (16, OcclusionSampling::Full),
-    (32, OcclusionSampling::Full),
-    (64, OcclusionSampling::Full),
-    (128, OcclusionSampling::Full),
+const OCCLUSION: [(u32, RaySampling); 9] = [
+    (0, RaySampling::Full),
+    (32, RaySampling::Shared),
+    (64, RaySampling::Shared),
+    (4, RaySampling::Full),
+    (8, RaySampling::Full),
+    (16, RaySampling::Full),
+    (32, RaySampling::Full),
+    (64, RaySampling::Full),
+    (128, RaySampling::Full),
 ];
 
 impl Setting {
@@ -115,11 +115,11 @@ fn extra_samples(samples: u32) -> String {
     if samples == 1 { "none".to_owned() } else { samples.to_string() }
 }
 
-fn occlusion_name(rays: u32, sampling: OcclusionSampling) -> String {
+fn occlusion_name(rays: u32, sampling: RaySampling) -> String {
     match (rays, sampling) {
         (0, _) => "none".to_owned(),
-        (rays, OcclusionSampling::Full) => format!("{rays} rays per sample"),
-        (rays, OcclusionSampling::Shared) => format!("{rays} shared rays"),
+        (rays, RaySampling::Full) => format!("{rays} rays per sample"),
+        (rays, RaySampling::Shared) => format!("{rays} shared rays"),
     }
 }
 
@@ -140,7 +140,7 @@ fn sight_choices(current: SightRays) -> [(String, SightRays); 6] {
     ]
 }
 
-fn set_occlusion(settings: &mut RenderSettings, rays: u32, sampling: OcclusionSampling) {
+fn set_occlusion(settings: &mut RenderSettings, rays: u32, sampling: RaySampling) {
     let occlusion = &mut settings.effects.ambient_occlusion;
     let distance = occlusion.map_or(OCCLUSION_DISTANCE, |occlusion| occlusion.distance);
     let requested = AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, distance) };

@@ -6,7 +6,7 @@
 //! plate.
 
 mod occlusion;
-mod occlusion_buffer;
+mod openness_buffer;
 mod optics;
 mod surface_hit;
 
@@ -27,7 +27,7 @@ use crate::scene::Scene;
 use crate::work::{Work, note};
 
 pub(crate) use occlusion::{AmbientRays, RayPart, RayStarts};
-pub(crate) use occlusion_buffer::{OcclusionBuffer, SmallView};
+pub(crate) use openness_buffer::{OpennessBuffer, SmallView};
 pub(crate) use optics::{Glass, Medium, Optics, left_after};
 pub(crate) use surface_hit::SurfaceHit;
 

@@ -2,7 +2,7 @@
 //! (H. Landis, "Production-Ready Global Illumination", 2002).
 //!
 //! The directions are a spiral over the disc below the hemisphere, which gives the cosine weights.
-//! [Full sampling](OcclusionSampling::Full) casts all of them at every point, rotated about the normal by one of 16
+//! [Full sampling](RaySampling::Full) casts all of them at every point, rotated about the normal by one of 16
 //! angles. Otherwise points cast a part of them each, and neighbours complete each other. The pixel's position in a
 //! square of four by four selects the angle or the part: neighbours differ, and the image is reproducible.
 
@@ -13,7 +13,7 @@ use trigon_math::{Hemispheres, Rays, Vec2, Vec3, elementary};
 use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
 
 use super::{RayScene, columns, rows};
-use crate::effect_settings::{AmbientOcclusion, OcclusionSampling};
+use crate::effect_settings::{AmbientOcclusion, RaySampling};
 use crate::lanes::{V3, scaled, sum, turned};
 use crate::lighting::LitPoints;
 
@@ -27,7 +27,7 @@ pub(crate) struct AmbientRays {
     directions: Vec<Vec3>,
     turns: [Vec2; TURNS],
     distance: f32,
-    pub(crate) sampling: OcclusionSampling,
+    pub(crate) sampling: RaySampling,
 }
 
 /// Which of the rays start at a point.
@@ -56,9 +56,9 @@ impl AmbientRays {
         const STEP: f32 = 2.399_963_2;
         let requested = settings.rays.clamp(1, AmbientOcclusion::MOST_RAYS);
         let count = match settings.sampling {
-            OcclusionSampling::Full => requested,
+            RaySampling::Full => requested,
             // Each pixel of a square gets as many.
-            OcclusionSampling::Shared => requested.next_multiple_of(TURNS as u32),
+            RaySampling::Shared => requested.next_multiple_of(TURNS as u32),
         };
         let direction = |i: u32| {
             let square = (i as f32 + 0.5) / count as f32;

@@ -274,7 +274,7 @@ impl Changing {
             Change::Shadows(shadows) => settings.effects.shadows = shadows,
             Change::Rays(bounces, rays) => {
                 settings.effects.sight = SightRays::all(bounces);
-                let sampling = [OcclusionSampling::Full, OcclusionSampling::Shared][bounces as usize % 2];
+                let sampling = [RaySampling::Full, RaySampling::Shared][bounces as usize % 2];
                 settings.effects.ambient_occlusion =
                     rays.map(|rays| AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, 1.0) });
             }

@@ -24,7 +24,7 @@ use super::*;
 use crate::{
     AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Exposure,
     Fog, Frame, Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap,
-    Occlusion, OcclusionSampling, Outline, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows,
+    Occlusion, Outline, RaySampling, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows,
     SightRays, Style, TextureBinding, ToneMapping, Transform, render,
 };
 

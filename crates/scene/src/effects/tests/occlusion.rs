@@ -62,7 +62,7 @@ fn floor_and_box() -> Scene {
     scene
 }
 
-fn with(rays: u32, sampling: OcclusionSampling, [width, height]: [u32; 2]) -> RenderSettings {
+fn with(rays: u32, sampling: RaySampling, [width, height]: [u32; 2]) -> RenderSettings {
     let occlusion = AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, DISTANCE as f32) };
     let effects = EffectSettings { ambient_occlusion: Some(occlusion), ..EffectSettings::default() };
     let mut settings = RenderSettings { width, height, ..settings(effects) };
@@ -116,8 +116,8 @@ fn shared_rays_err_little_more_than_rays_at_every_sample_and_are_few() {
     let scene = floor_and_box();
     for camera in cameras() {
         let size = [101, 63];
-        let (all, many) = error(&scene, &camera, with(16, OcclusionSampling::Full, size));
-        let (shared, few) = error(&scene, &camera, with(64, OcclusionSampling::Shared, size));
+        let (all, many) = error(&scene, &camera, with(16, RaySampling::Full, size));
+        let (shared, few) = error(&scene, &camera, with(64, RaySampling::Shared, size));
         assert!(shared <= 1.5 * all, "{:?}: {shared}, not {all}", camera.projection);
         assert!(10 * few < many, "{:?}: {few} rays, not {many}", camera.projection);
         assert!(few > 0, "there are rays");
@@ -140,7 +140,7 @@ fn samples_that_the_small_image_does_not_show_cast_rays_themselves() {
         let frame = render(&scene, &cameras()[0], &settings).expect("drawn");
         (frame.radiance.expect("requested"), frame.object_ids.expect("requested"))
     };
-    let ((full, ids), (shared, _)) = (of(OcclusionSampling::Full), of(OcclusionSampling::Shared));
+    let ((full, ids), (shared, _)) = (of(RaySampling::Full), of(RaySampling::Shared));
     let is_rod = |id: &u32| *id == rod.index() as u32;
     let pixels: Vec<usize> = ids.iter().enumerate().filter(|(_, id)| is_rod(id)).map(|(at, _)| at).collect();
     assert!(pixels.len() > 40, "{} pixels show the rod", pixels.len());

@@ -291,7 +291,7 @@ fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
                     [usize::from(shadows)],
                 environment: environment.then(|| Arc::new(Environment::uniform(Vec3::ONE))),
                 ambient_occlusion: occlusion.then_some(AmbientOcclusion {
-                    sampling: [OcclusionSampling::Full, OcclusionSampling::Shared][usize::from(outline)],
+                    sampling: [RaySampling::Full, RaySampling::Shared][usize::from(outline)],
                     ..AmbientOcclusion::new(2, 1.0)
                 }),
                 fog: fog.then_some(Fog { color: Vec3::ONE, density: 0.1 }),

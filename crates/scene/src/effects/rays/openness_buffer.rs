@@ -33,7 +33,7 @@ const NOWHERE: f32 = 1e30;
 
 /// The fraction of open surroundings at each pixel of a small image.
 #[derive(Debug)]
-pub(crate) struct OcclusionBuffer {
+pub(crate) struct OpennessBuffer {
     view: SmallView,
     /// Row by row, with empty pixels around them.
     open: Vec<f32>,
@@ -116,7 +116,7 @@ impl SmallView {
     }
 }
 
-impl OcclusionBuffer {
+impl OpennessBuffer {
     /// From the pass over the surfaces: for each pixel the normal and the fraction of its rays that leave the
     /// surroundings, and the distance along the view's axis.
     pub(crate) fn new(view: SmallView, found: &[Vec4], distances: &[f32], rasterizer: &Rasterizer) -> Self {
