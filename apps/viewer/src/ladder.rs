@@ -45,6 +45,8 @@ impl QualityStep {
                 shadows: Shadows::Maps { resolution: 2048 },
                 occlusion_rays: 16,
                 occlusion_sampling: RaySampling::Full,
+                shadow_rays: 0,
+                shadow_sampling: RaySampling::Full,
                 glass_bounces: 8,
             },
         }

@@ -37,6 +37,8 @@ pub enum Effect {
     ShadowMaps,
     /// Shadows by rays.
     ShadowRays,
+    /// Soft edges of the shadows of lamps with an extent.
+    SoftShadows,
     /// Ambient occlusion by rays.
     AmbientOcclusion,
     /// Reflections in metals without roughness, by rays.
@@ -55,7 +57,7 @@ pub enum Effect {
 
 impl Effect {
     /// All of them, in the order in which a plan lists them.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 24] = [
         Self::Lamps,
         Self::AmbientLight,
         Self::LightMeter,
@@ -72,6 +74,7 @@ impl Effect {
         Self::MetalStudio,
         Self::ShadowMaps,
         Self::ShadowRays,
+        Self::SoftShadows,
         Self::AmbientOcclusion,
         Self::Reflection,
         Self::Refraction,
@@ -101,6 +104,7 @@ impl fmt::Display for Effect {
             Self::MetalStudio => "studio in metals",
             Self::ShadowMaps => "shadow maps",
             Self::ShadowRays => "shadow rays",
+            Self::SoftShadows => "soft shadows",
             Self::AmbientOcclusion => "ambient occlusion",
             Self::Reflection => "mirror reflection",
             Self::Refraction => "refraction",

@@ -13,6 +13,8 @@ use crate::node::NodeId;
 pub struct EffectSettings {
     /// Whether lamps cast shadows, and how these are computed.
     pub shadows: Shadows,
+    /// The shadows of lamps with an extent.
+    pub soft_shadows: SoftShadows,
     /// Darkens ambient light near other surfaces.
     pub ambient_occlusion: Option<AmbientOcclusion>,
     /// Ambient light from an environment; it replaces the scene's ambient lights.
@@ -44,8 +46,27 @@ pub enum Shadows {
         /// Width and height of each in texels, 16 to 8192.
         resolution: u32,
     },
-    /// By a ray from each pixel to each lamp: exact, and sharp.
+    /// By a ray from each sample to each lamp, exact; to lamps with an extent by [several](SoftShadows).
     Rays,
+}
+
+/// The shadows of lamps with an [extent](crate::Light::radius), which are soft. With [`Shadows::Rays`] the fraction of the
+/// rays to a lamp that arrives is the fraction of the lamp that is visible. [`Shadows::Maps`] need none of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftShadows {
+    /// The [radius](crate::Light::radius) of lamps that have none of their own, the studio's among them; 0 for none.
+    pub radius: f32,
+    /// Rays to each of these lamps, 1 to 256: more are smoother.
+    pub rays: u32,
+    /// Where they start.
+    pub sampling: RaySampling,
+}
+
+impl Default for SoftShadows {
+    /// Of the scene's own lamps alone, with sixteen rays at every sample.
+    fn default() -> Self {
+        Self { radius: 0.0, rays: 16, sampling: RaySampling::Full }
+    }
 }
 
 /// The rays that show what is behind glass (surfaces with [transmission](crate::Material)) and in
@@ -124,9 +145,6 @@ pub struct AmbientOcclusion {
 }
 
 impl AmbientOcclusion {
-    /// The largest useful number of rays.
-    pub(crate) const MOST_RAYS: u32 = 256;
-
     /// With all rays at every sample. See the fields.
     #[must_use]
     pub fn new(rays: u32, distance: f32) -> Self {
@@ -134,7 +152,10 @@ impl AmbientOcclusion {
     }
 }
 
-/// Where the rays of ambient occlusion start.
+/// The largest useful number of rays of ambient occlusion, and of those to a lamp.
+pub(crate) const MOST_RAYS: u32 = 256;
+
+/// Where the rays of ambient occlusion and of soft shadows start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RaySampling {
     /// All of them at every sample.
@@ -142,8 +163,8 @@ pub enum RaySampling {
     Full,
     /// At the pixels of an image of half the width and height, a sixteenth of the rays at each. Neighbours on the same
     /// surface share what they find (A. Keller and W. Heidrich, "Interleaved Sampling", 2001). It takes a fraction of
-    /// the time, and shadows narrower than a few pixels are softer. Samples whose surface the small image does not show
-    /// cast a quarter of the rays themselves.
+    /// the time, and occlusion narrower than a few pixels is softer. Samples whose surface the small image does not show
+    /// cast a quarter of the rays themselves, and so do those at edges of shadows that are narrower than a few pixels.
     Shared,
 }
 

@@ -74,7 +74,7 @@ pub use display::Display;
 pub use effect::Effect;
 pub use effect_settings::{
     AmbientOcclusion, EffectSettings, Exposure, Fog, MetalReflection, Outline, RaySampling, Shadows,
-    SightRays, ToneMapping,
+    SightRays, SoftShadows, ToneMapping,
 };
 pub use effects::EffectCounts;
 pub use elements::{ElementSet, Mark, Marks, VertexPoints};

@@ -46,13 +46,17 @@ pub struct Light {
     /// The distance in metres beyond which a point or spot light does not shine; infinite by
     /// default. See [`Light::falloff`].
     pub range: f32,
+    /// How large the lamp is for its shadows, whose edges are soft above 0, the default. A point or spot light is a
+    /// sphere of this radius in metres. A directional light is a disc with this radius at a distance of one metre: the
+    /// tangent of half the angle that it spans, 0.00465 for the sun. The light itself comes from the middle.
+    pub radius: f32,
 }
 
 impl Light {
     /// White ambient light.
     #[must_use]
     pub fn ambient(intensity: f32) -> Self {
-        Self { kind: LightKind::Ambient, color: Vec3::ONE, intensity, range: f32::INFINITY }
+        Self { kind: LightKind::Ambient, color: Vec3::ONE, intensity, range: f32::INFINITY, radius: 0.0 }
     }
 
     /// White parallel light along the node's −Z axis.
@@ -84,6 +88,12 @@ impl Light {
     #[must_use]
     pub fn with_range(self, range: f32) -> Self {
         Self { range, ..self }
+    }
+
+    /// The same light with another [radius](Self::radius).
+    #[must_use]
+    pub fn with_radius(self, radius: f32) -> Self {
+        Self { radius, ..self }
     }
 
     /// The fraction of a point or spot light that arrives at a distance, given squared, in square
@@ -120,11 +130,27 @@ impl Light {
         self.kind == LightKind::Ambient
     }
 
+    /// The radius that counts for shadows; 0 for a sharp one.
+    pub(crate) fn extent(&self) -> f32 {
+        if self.is_ambient() { 0.0 } else { sound_radius(self.radius) }
+    }
+
     /// The linear RGB of a white surface; never negative, never NaN.
     pub(crate) fn radiance(&self) -> Vec3 {
         let value = self.color * self.intensity;
         let clean = |channel: f32| if channel > 0.0 && channel.is_finite() { channel } else { 0.0 };
         Vec3::new(clean(value.x), clean(value.y), clean(value.z))
+    }
+}
+
+/// A radius within the range in which its square is a number; 0 for what is none.
+pub(crate) fn sound_radius(radius: f32) -> f32 {
+    /// A lamp of this radius covers half of the sky.
+    const LARGEST: f32 = (1_u64 << 60) as f32;
+    match radius > 0.0 {
+        true if radius < LARGEST => radius,
+        true => LARGEST,
+        false => 0.0,
     }
 }
 
@@ -232,11 +258,12 @@ mod tests {
             (Light::spot(3.0), LightKind::Spot { inner: 0.0, outer: FRAC_PI_4 }),
         ];
         for (light, kind) in lights {
-            let plain = Light { kind, color: Vec3::ONE, intensity: 3.0, range: f32::INFINITY };
+            let plain = Light { kind, color: Vec3::ONE, intensity: 3.0, range: f32::INFINITY, radius: 0.0 };
             assert_eq!(light, plain);
             let color = Vec3::new(0.1, 0.2, 0.3);
             assert_eq!(light.with_color(color), Light { color, ..plain });
             assert_eq!(light.with_range(4.0), Light { range: 4.0, ..plain });
+            assert_eq!(light.with_radius(4.0), Light { radius: 4.0, ..plain });
             assert_eq!(light.with_color(color).radiance(), color * 3.0);
         }
         let odd = Light::point(2.0).with_color(Vec3::new(-1.0, f32::NAN, f32::INFINITY));

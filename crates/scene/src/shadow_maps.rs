@@ -8,8 +8,8 @@ use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 
 use crate::display::Display;
 use crate::effects::{
-    Caster, Casters, LampPose, LightingEnvironment, PlacedMap, ShadowMap, ShadowMaps, ShadowSource, View,
-    views,
+    Caster, Casters, LampPose, LampView, LightingEnvironment, NearestDepths, PlacedMap, ShadowMap,
+    ShadowMaps, ShadowSource, View, views,
 };
 use crate::material::{AlphaMode, Material, Shading};
 use crate::placement::{Eye, Rays};
@@ -26,13 +26,26 @@ pub(crate) struct CastingScene<'s> {
     pub(crate) camera_to_world: &'s DAffine3,
 }
 
+/// A lamp whose shadows are mapped.
+pub(crate) struct MappedLamp {
+    pub(crate) pose: LampPose,
+    /// 0 for a sharp shadow.
+    pub(crate) radius: f32,
+}
+
+impl MappedLamp {
+    fn view(&self) -> LampView {
+        LampView { pose: self.pose, is_soft: self.radius > 0.0 }
+    }
+}
+
 /// The shadow maps of the last frame.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowCache {
     /// What was drawn, and in which resolution.
     casters: Vec<ShadowSource>,
     resolution: u32,
-    maps: Vec<(LampPose, Vec<Arc<ShadowMap>>)>,
+    maps: Vec<(LampView, Vec<Arc<ShadowMap>>)>,
     drawn: usize,
 }
 
@@ -40,7 +53,7 @@ impl ShadowCache {
     /// The maps of all lamps.
     pub(crate) fn maps(
         &mut self,
-        poses: &[LampPose],
+        lamps: &[MappedLamp],
         casting: &CastingScene<'_>,
         resolution: u32,
         rasterizer: &mut Rasterizer,
@@ -50,15 +63,17 @@ impl ShadowCache {
             self.casters = casting.casters.shadow_sources().cloned().collect();
             self.resolution = resolution;
         }
-        self.maps.retain(|(cached, _)| poses.contains(cached));
+        let needed: Vec<LampView> = lamps.iter().map(MappedLamp::view).collect();
+        self.maps.retain(|(cached, _)| needed.contains(cached));
         self.drawn = 0;
-        let missing = poses.iter().filter(|pose| !self.maps.iter().any(|(cached, _)| cached == *pose));
-        let passes: usize = missing.map(|pose| views(pose, casting.casters).len()).sum();
+        let missing = needed.iter().filter(|view| !self.maps.iter().any(|(cached, _)| cached == *view));
+        let passes: usize = missing.map(|view| views(view, casting.casters).len()).sum();
         rasterizer.expect_passes(u32::try_from(passes).unwrap_or(u32::MAX));
         let mut maps = ShadowMaps::default();
-        for pose in poses {
-            let maps_of_lamp = self.of(pose, casting, rasterizer)?;
-            let placed = maps_of_lamp.into_iter().map(|map| PlacedMap::new(map, casting.camera_to_world));
+        for (lamp, view) in lamps.iter().zip(&needed) {
+            let maps_of_lamp = self.of(view, casting, rasterizer)?;
+            let placed = maps_of_lamp.into_iter();
+            let placed = placed.map(|map| PlacedMap::new(map, lamp.radius, casting.camera_to_world));
             maps.lamps.push(placed.collect());
         }
         Ok(maps)
@@ -71,20 +86,21 @@ impl ShadowCache {
 
     fn of(
         &mut self,
-        pose: &LampPose,
+        lamp: &LampView,
         casting: &CastingScene<'_>,
         rasterizer: &mut Rasterizer,
     ) -> Result<Vec<Arc<ShadowMap>>, TargetError> {
-        if let Some((_, maps)) = self.maps.iter().find(|(cached, _)| cached == pose) {
+        if let Some((_, maps)) = self.maps.iter().find(|(cached, _)| cached == lamp) {
             return Ok(maps.clone());
         }
         let mut maps = Vec::new();
-        for view in views(pose, casting.casters) {
-            let map = draw(view, self.resolution, casting, rasterizer)?;
-            maps.push(Arc::new(map));
+        for view in views(lamp, casting.casters) {
+            let depths = draw(&view, self.resolution, casting, rasterizer)?;
+            let nearest = lamp.is_soft.then(|| NearestDepths::new(self.resolution, &depths));
+            maps.push(Arc::new(ShadowMap { view, resolution: self.resolution, depths, nearest }));
         }
         self.drawn += maps.len();
-        self.maps.push((*pose, maps.clone()));
+        self.maps.push((*lamp, maps.clone()));
         Ok(maps)
     }
 }
@@ -98,11 +114,11 @@ enum ShadowDraw<'a> {
 
 /// Draws the casters' depth as a lamp sees it.
 fn draw(
-    view: View,
+    view: &View,
     resolution: u32,
     casting: &CastingScene<'_>,
     rasterizer: &mut Rasterizer,
-) -> Result<ShadowMap, TargetError> {
+) -> Result<Vec<f32>, TargetError> {
     note(Work::ShadowMap);
     let dark = LightingEnvironment::default();
     let eye = Eye::new(&view.camera, view.aspect);
@@ -131,7 +147,7 @@ fn draw(
     let mut target = Target::new(resolution, resolution, &[])?.with_depth(&mut depths)?;
     rasterizer.draw(&pass, &mut target);
     drop(target);
-    Ok(ShadowMap { view, resolution, depths })
+    Ok(depths)
 }
 
 fn shape<'a>(

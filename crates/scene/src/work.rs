@@ -34,6 +34,10 @@ pub(crate) enum Work {
     ShadowLookUp,
     /// A ray to a lamp.
     ShadowRay,
+    /// Rays to a lamp with an extent.
+    SoftShadowRay,
+    /// The width of the shadow of such a lamp is found in its shadow map.
+    PenumbraLookUp,
     /// A ray into the surroundings.
     OcclusionRay,
     /// A ray along the line of sight.

@@ -256,7 +256,7 @@ proptest! {
                 2 => LightKind::Point,
                 _ => LightKind::Spot { inner, outer },
             };
-            (Light { kind, color: Vec3::new(r, g, b), intensity, range }, DVec3::new(f64::from(r), 1.0, f64::from(b)))
+            (Light { kind, color: Vec3::new(r, g, b), intensity, range, radius: r }, DVec3::new(f64::from(r), 1.0, f64::from(b)))
         }).collect();
         let alone = floor(metal(roughness), model, &[good]);
         let brightest = alone.color.chunks_exact(4).map(|pixel| pixel[0]).max();

@@ -6,12 +6,18 @@ use trigon_math::Vec3;
 use trigon_raster::ExecuteSettings;
 use trigon_scene::{
     AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, Frame, Outline, RaySampling,
-    RenderSettings, Renderer, Scene, Shadows, SightRays, Sky, Style, ToneMapping, showcase,
+    RenderSettings, Renderer, Scene, Shadows, SightRays, Sky, SoftShadows, Style, ToneMapping, showcase,
 };
 
 /// Their names.
-pub(super) const NAMES: [&str; 3] =
-    ["scene: rays at every sample", "scene: rays that pixels share", "scene: shadow maps, studio"];
+pub(super) const NAMES: [&str; 6] = [
+    "scene: rays at every sample",
+    "scene: rays that pixels share",
+    "scene: shadow maps, studio",
+    "scene: soft shadows by rays at every sample",
+    "scene: soft shadows by rays that pixels share",
+    "scene: soft shadows by maps",
+];
 
 /// The images of [`NAMES`].
 pub(super) fn images(execution: &ExecuteSettings) -> impl Iterator<Item = Frame> {
@@ -24,7 +30,7 @@ pub(super) fn images(execution: &ExecuteSettings) -> impl Iterator<Item = Frame>
     })
 }
 
-fn settings(scene: &Scene) -> [RenderSettings; 3] {
+fn settings(scene: &Scene) -> [RenderSettings; 6] {
     let nodes =
         scene.nodes().iter().filter(|(_, node)| node.mesh.is_some()).map(|(id, _)| id).skip(1).take(1);
     let occlusion = |rays, sampling| Some(AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, 1.0) });
@@ -52,5 +58,12 @@ fn settings(scene: &Scene) -> [RenderSettings; 3] {
     shared.effects.ambient_occlusion = occlusion(32, RaySampling::Shared);
     let mut maps = RenderSettings { background: Background::default(), ..shared.clone() };
     (maps.effects.shadows, maps.effects.environment) = (Shadows::Maps { resolution: 128 }, None);
-    [all, shared, maps]
+    let soft =
+        [(&all, 3, RaySampling::Full), (&shared, 32, RaySampling::Shared), (&maps, 1, RaySampling::Full)];
+    let [soft_all, soft_shared, soft_maps] = soft.map(|(like, rays, sampling)| {
+        let mut soft = like.clone();
+        soft.effects.soft_shadows = SoftShadows { radius: 0.1, rays, sampling };
+        soft
+    });
+    [all, shared, maps, soft_all, soft_shared, soft_maps]
 }

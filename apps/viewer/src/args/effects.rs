@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
     AmbientOcclusion, Background, EffectSettings, Environment, Exposure, Fog, MetalReflection, RaySampling,
-    Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky, ToneMapping,
+    Reflection, RenderSettings, ShadingModel, Shadows, SightRays, Sky, SoftShadows, ToneMapping,
 };
 
 use super::quality::Insisted;
@@ -38,6 +38,20 @@ pub(crate) struct EffectArgs {
     /// Width and height of shadow maps in texels [default: 2048, or from --preset]
     #[arg(long, value_name = "TEXELS", value_parser = values::count::<16, 8192>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) shadow_resolution: Option<u32>,
+
+    /// The radius of lamps for soft shadows, in metres; of directional ones at a distance of one metre: 0.00465 for
+    /// the sun. Lamps with a radius of their own have that one
+    #[arg(long, value_name = "RADIUS", default_value = "0", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
+    pub(crate) light_radius: f32,
+
+    /// Rays to each lamp with a radius, for --shadows=rays [default: 16, or from --preset]
+    #[arg(long, value_name = "N", value_parser = values::count::<1, 256>, allow_negative_numbers = true, help_heading = "Effects")]
+    pub(crate) shadow_rays: Option<u32>,
+
+    /// Where these rays start: full is at every sample; shared takes a fraction of the time
+    /// [default: full, or from --preset]
+    #[arg(long, value_name = "WAY", help_heading = "Effects")]
+    pub(crate) shadow_sampling: Option<RaySamplingArg>,
 
     /// Darken ambient light near other surfaces, by tracing rays
     #[arg(long, short = 'q', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
@@ -131,11 +145,20 @@ pub(crate) enum ShadowsArg {
     Rays,
 }
 
-/// Where rays of ambient occlusion start.
+/// Where rays of ambient occlusion and soft shadows start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum RaySamplingArg {
     Full,
     Shared,
+}
+
+impl RaySamplingArg {
+    fn sampling(self) -> RaySampling {
+        match self {
+            Self::Full => RaySampling::Full,
+            Self::Shared => RaySampling::Shared,
+        }
+    }
 }
 
 /// What metals mirror.
@@ -196,7 +219,9 @@ impl EffectArgs {
                 ShadowsArg::Off | ShadowsArg::On => self.shadow_resolution.map(|_| self.shadow_maps()),
             },
             occlusion_rays: self.ambient_occlusion_rays,
-            occlusion_sampling: self.occlusion_sampling(),
+            occlusion_sampling: self.ambient_occlusion_sampling.map(RaySamplingArg::sampling),
+            shadow_rays: self.shadow_rays,
+            shadow_sampling: self.shadow_sampling.map(RaySamplingArg::sampling),
             samples: None,
         }
     }
@@ -206,13 +231,6 @@ impl EffectArgs {
             ShadingArg::Flat => ShadingModel::Flat,
             ShadingArg::Gouraud => ShadingModel::Gouraud,
             ShadingArg::Phong => ShadingModel::Phong,
-        })
-    }
-
-    fn occlusion_sampling(&self) -> Option<RaySampling> {
-        Some(match self.ambient_occlusion_sampling? {
-            RaySamplingArg::Full => RaySampling::Full,
-            RaySamplingArg::Shared => RaySampling::Shared,
         })
     }
 
@@ -229,16 +247,22 @@ impl EffectArgs {
             ReflectionArg::BlinnPhong => Reflection::BlinnPhong,
             ReflectionArg::MetallicRoughness => Reflection::MetallicRoughness,
         };
+        let usual = SoftShadows::default();
         settings.effects = EffectSettings {
             shadows: match self.shadows {
                 ShadowsArg::Off => Shadows::Off,
                 ShadowsArg::On | ShadowsArg::Maps => self.shadow_maps(),
                 ShadowsArg::Rays => Shadows::Rays,
             },
+            soft_shadows: SoftShadows {
+                radius: self.light_radius,
+                rays: self.shadow_rays.unwrap_or(usual.rays),
+                sampling: self.shadow_sampling.map_or(usual.sampling, RaySamplingArg::sampling),
+            },
             ambient_occlusion: (self.ambient_occlusion == Some(true)).then_some(AmbientOcclusion {
                 rays: self.ambient_occlusion_rays.unwrap_or(USUAL_OCCLUSION_RAYS),
                 distance: self.ambient_occlusion_distance,
-                sampling: self.occlusion_sampling().unwrap_or_default(),
+                sampling: self.ambient_occlusion_sampling.map(RaySamplingArg::sampling).unwrap_or_default(),
             }),
             environment: self.is_lit_by_sky().then(clear_sky),
             metal_reflection: match self.metal_reflection {

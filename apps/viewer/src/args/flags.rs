@@ -2,11 +2,11 @@
 
 use trigon_scene::{
     Display, Exposure, MetalReflection, RaySampling, Reflection, RenderSettings, ShadingModel, Shadows,
-    SightRays, Style, ToneMapping,
+    SightRays, SoftShadows, Style, ToneMapping,
 };
 
 /// The flags that [`of_settings`] and a window's camera and overlays decide. All that is typed of them is replaced.
-pub(crate) const DECIDED: [&str; 49] = [
+pub(crate) const DECIDED: [&str; 52] = [
     "ambient-occlusion",
     "ambient-occlusion-distance",
     "ambient-occlusion-rays",
@@ -38,6 +38,7 @@ pub(crate) const DECIDED: [&str; 49] = [
     "hide-nodes",
     "input",
     "light-intensity",
+    "light-radius",
     "line-width",
     "metadata",
     "metal-reflection",
@@ -50,7 +51,9 @@ pub(crate) const DECIDED: [&str; 49] = [
     "samples",
     "scene-hierarchy",
     "shading",
+    "shadow-rays",
     "shadow-resolution",
+    "shadow-sampling",
     "shadows",
     "style",
     "tone-mapping",
@@ -95,12 +98,17 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
             add(true, "shadow-resolution", &resolution);
         }
     }
+    let (soft, usual) = (effects.soft_shadows, SoftShadows::default());
+    add(soft.radius != 0.0, "light-radius", &soft.radius);
+    if effects.shadows == Shadows::Rays && soft != (SoftShadows { radius: soft.radius, ..usual }) {
+        add(true, "shadow-rays", &soft.rays);
+        add(true, "shadow-sampling", &sampling(soft.sampling));
+    }
     if let Some(occlusion) = effects.ambient_occlusion {
         add(true, "ambient-occlusion", &true);
         add(true, "ambient-occlusion-rays", &occlusion.rays);
         add(true, "ambient-occlusion-distance", &occlusion.distance);
-        let is_shared = occlusion.sampling == RaySampling::Shared;
-        add(true, "ambient-occlusion-sampling", &if is_shared { "shared" } else { "full" });
+        add(true, "ambient-occlusion-sampling", &sampling(occlusion.sampling));
     }
     add(effects.metal_reflection == MetalReflection::Ambient, "metal-reflection", &"ambient");
     match effects.sight {
@@ -113,6 +121,13 @@ pub(crate) fn of_settings(settings: &RenderSettings) -> Vec<String> {
     }
     add(effects.tone_mapping != ToneMapping::None, "tone-mapping", &true);
     flags
+}
+
+fn sampling(sampling: RaySampling) -> &'static str {
+    match sampling {
+        RaySampling::Full => "full",
+        RaySampling::Shared => "shared",
+    }
 }
 
 fn style(style: Style) -> &'static str {

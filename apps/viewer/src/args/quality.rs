@@ -61,6 +61,8 @@ pub(crate) struct Insisted {
     pub(crate) shadows: Option<Shadows>,
     pub(crate) occlusion_rays: Option<u32>,
     pub(crate) occlusion_sampling: Option<RaySampling>,
+    pub(crate) shadow_rays: Option<u32>,
+    pub(crate) shadow_sampling: Option<RaySampling>,
 }
 
 impl Insisted {
@@ -74,6 +76,8 @@ impl Insisted {
             shadows: self.shadows.unwrap_or(quality.shadows),
             occlusion_rays: self.occlusion_rays.unwrap_or(quality.occlusion_rays),
             occlusion_sampling: self.occlusion_sampling.unwrap_or(quality.occlusion_sampling),
+            shadow_rays: self.shadow_rays.unwrap_or(quality.shadow_rays),
+            shadow_sampling: self.shadow_sampling.unwrap_or(quality.shadow_sampling),
             // --bounces asks for mirrors, too, and a quality changes only glass without them.
             glass_bounces: quality.glass_bounces,
         }

@@ -217,6 +217,14 @@ fn every_flag_about_the_image_changes_it() {
         assert!(stream(flags) == plain, "`{flags}` is the default");
     }
     assert!(stream("--edges --line-width=5") != stream("--edges"), "width of edges");
+    let soft = [
+        "",
+        " --light-radius=0.5",
+        " --light-radius=0.5 --shadow-rays=3",
+        " --light-radius=0.5 --shadow-sampling=shared",
+    ];
+    let soft = soft.map(|flags| stream(&format!("--shadows=rays{flags}")));
+    assert!(soft.iter().enumerate().all(|(at, one)| !soft[..at].contains(one)), "soft shadows");
 }
 
 #[test]

@@ -28,6 +28,10 @@ pub struct SetLight {
     /// The distance beyond which a point or spot does not shine, in metres; 0 for no limit.
     #[schemars(range(min = 0.0))]
     pub range: Option<f32>,
+    /// For soft shadows: the radius of a point or spot in metres, or of a directional light at a distance of one metre
+    /// (0.00465 for the sun); 0 for sharp ones.
+    #[schemars(range(min = 0.0))]
+    pub radius: Option<f32>,
     /// For a spot: the angle from its axis at which it begins to fade, in degrees.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub inner_angle: Option<f32>,
@@ -63,6 +67,7 @@ impl SetLight {
             color: self.color.map_or(light.color, Vec3::from),
             intensity: self.intensity.unwrap_or(light.intensity).max(0.0),
             range: range.unwrap_or(light.range),
+            radius: self.radius.unwrap_or(light.radius).max(0.0),
         }
     }
 
@@ -139,6 +144,8 @@ mod tests {
         let LightKind::Spot { inner, outer } = lamp.kind else { panic!("a spot: {lamp:?}") };
         assert_eq!((inner, outer), (10f32.to_radians(), 10f32.to_radians()), "the inner angle follows");
         assert_eq!(lamp.range, f32::INFINITY, "no limit");
+        let lamp = run(serde_json::json!({ "op": "set_light", "object": "lamp", "radius": 0.25 }));
+        assert_eq!((lamp.radius, lamp.intensity), (0.25, 3.0), "soft shadows");
         assert!(
             document
                 .run(

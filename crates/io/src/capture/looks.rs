@@ -74,7 +74,22 @@ choice!(MipFilter { 0 => None, 1 => Nearest, 2 => Linear, 3 => Anisotropic(probe
 choice!(TextureFormat { 0 => Srgb, 1 => Linear });
 record!(TextureAsset { name, texture });
 
-record!(Light { kind, color, intensity, range });
+/// With a radius since version 8.
+impl Stored for Light {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
+        let Self { kind, color, intensity, range, radius } = self;
+        kind.write(to);
+        color.write(to);
+        [*intensity, *range, *radius].write(to);
+    }
+
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
+        let (kind, color) = (Stored::read(from)?, Stored::read(from)?);
+        let [intensity, range] = Stored::read(from)?;
+        let radius = if from.version < 8 { 0.0 } else { Stored::read(from)? };
+        Ok(Self { kind, color, intensity, range, radius })
+    }
+}
 choice!(LightKind { 0 => Ambient, 1 => Directional, 2 => Point, 3 => Spot { inner, outer } });
 
 impl Stored for TextureBinding {

@@ -43,7 +43,11 @@ use super::write::{WriteError, write_atomically};
 const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 
 /// The version of the format.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
+
+/// The oldest version that is read. Version 7 has no radii of lights and no soft shadows, which are those of lamps without
+/// an extent then.
+const OLDEST: u32 = 7;
 
 /// A scene, a camera, settings and the resulting image.
 ///
@@ -141,8 +145,9 @@ impl Capture {
     /// is damaged, or exceeds the limits.
     pub fn from_bytes(name: impl AsRef<Path>, bytes: &[u8], limits: &Limits) -> Result<Self, LoadError> {
         let name = name.as_ref();
-        let (program, compressed) = opened(name, bytes)?;
-        Self::read_parts(program, CaptureReader::new(compressed, limits)).map_err(|damage| match damage {
+        let Opened { version, program, compressed } = opened(name, bytes)?;
+        let reader = CaptureReader::new(version, compressed, limits);
+        Self::read_parts(program, reader).map_err(|damage| match damage {
             Damage::Malformed(what) => LoadError::malformed(name, what, CAPTURE_AGAIN),
             Damage::Limit(what) => LoadError::limit(name, what),
         })
@@ -174,8 +179,15 @@ fn sealed(version: u32, program: &str, parts: &[u8]) -> Vec<u8> {
     [&MAGIC[..], &version.to_le_bytes(), &[length as u8], program, &hash, &compressed].concat()
 }
 
-/// The program that wrote a file, and its compressed part.
-fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadError> {
+/// A file whose hash is right.
+struct Opened<'a> {
+    version: u32,
+    /// That wrote it.
+    program: String,
+    compressed: &'a [u8],
+}
+
+fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<Opened<'a>, LoadError> {
     let no_capture = || {
         let remedy = "name a file that --capture wrote";
         LoadError::new(LoadErrorKind::Unsupported, name, "it is not a capture", remedy)
@@ -186,9 +198,9 @@ fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadEr
     let (program, rest) = rest.split_at_checked(usize::from(length)).ok_or_else(no_capture)?;
     let program = String::from_utf8_lossy(program).into_owned();
     let version = u32::from_le_bytes(*version);
-    if version != VERSION {
+    if !(OLDEST..=VERSION).contains(&version) {
         let what = format!(
-            "it is a capture in version {version} of the format, by trigon {program}; this is trigon {}, which reads version {VERSION}",
+            "it is a capture in version {version} of the format, by trigon {program}; this is trigon {}, which reads versions {OLDEST} to {VERSION}",
             env!("CARGO_PKG_VERSION")
         );
         let remedy = format!("replay it with trigon {program}");
@@ -196,7 +208,7 @@ fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadEr
     }
     match rest.split_first_chunk() {
         Some((hash, compressed)) if u64::from_le_bytes(*hash) == fnv1a(compressed) => {
-            Ok((program, compressed))
+            Ok(Opened { version, program, compressed })
         }
         _ => Err(LoadError::malformed(name, "its bytes are not those that were written", CAPTURE_AGAIN)),
     }

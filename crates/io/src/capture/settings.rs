@@ -5,23 +5,44 @@ use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
     AmbientOcclusion, Background, Display, EffectSettings, Environment, Exposure, Fog, Lighting,
     MetalReflection, Outline, Outputs, RaySampling, Reflection, RenderSettings, ShadingModel, Shadows,
-    SightRays, Sky, Style, ToneMapping,
+    SightRays, Sky, SoftShadows, Style, ToneMapping,
 };
 
 use super::stored::{CaptureReader, CaptureWriter, Damage};
 use super::stored::{Stored, choice, record};
 
-record!(EffectSettings {
-    shadows,
-    ambient_occlusion,
-    environment,
-    metal_reflection,
-    sight,
-    fog,
-    exposure,
-    tone_mapping,
-    outline,
-});
+/// With soft shadows since version 8.
+impl Stored for EffectSettings {
+    fn write(&self, to: &mut CaptureWriter<'_>) {
+        let Self { shadows, soft_shadows, ambient_occlusion, environment, metal_reflection, .. } = self;
+        shadows.write(to);
+        soft_shadows.write(to);
+        ambient_occlusion.write(to);
+        environment.write(to);
+        metal_reflection.write(to);
+        let Self { sight, fog, exposure, tone_mapping, outline, .. } = self;
+        sight.write(to);
+        fog.write(to);
+        exposure.write(to);
+        tone_mapping.write(to);
+        outline.write(to);
+    }
+
+    fn read(from: &mut CaptureReader<'_>) -> Result<Self, Damage> {
+        Ok(Self {
+            shadows: Stored::read(from)?,
+            soft_shadows: if from.version < 8 { SoftShadows::default() } else { Stored::read(from)? },
+            ambient_occlusion: Stored::read(from)?,
+            environment: Stored::read(from)?,
+            metal_reflection: Stored::read(from)?,
+            sight: Stored::read(from)?,
+            fog: Stored::read(from)?,
+            exposure: Stored::read(from)?,
+            tone_mapping: Stored::read(from)?,
+            outline: Stored::read(from)?,
+        })
+    }
+}
 
 /// As a number of bounces, of which the largest bit says that glass alone has them.
 impl Stored for SightRays {
@@ -65,6 +86,8 @@ impl Stored for AmbientOcclusion {
 
 const SHARED_RAYS: u32 = 1 << 31;
 
+record!(SoftShadows { radius, rays, sampling });
+choice!(RaySampling { 0 => Full, 1 => Shared });
 choice!(Shadows { 0 => Off, 1 => Maps { resolution }, 2 => Rays });
 choice!(MetalReflection { 0 => Studio, 1 => Ambient });
 record!(Fog { color, density });

@@ -222,6 +222,8 @@ pub(super) struct CaptureWriter<'a> {
 
 /// Returns them.
 pub(super) struct CaptureReader<'a> {
+    /// That of the format.
+    pub(super) version: u32,
     stream: BufReader<ZlibDecoder<&'a [u8]>>,
     /// The remaining memory budget in bytes.
     left: u64,
@@ -247,9 +249,9 @@ impl Damage {
 
 impl<'a> CaptureReader<'a> {
     /// Reads compressed parts. Their memory is limited by that for all files of a model.
-    pub(super) fn new(compressed: &'a [u8], limits: &'a Limits) -> Self {
+    pub(super) fn new(version: u32, compressed: &'a [u8], limits: &'a Limits) -> Self {
         let stream = BufReader::new(ZlibDecoder::new(compressed));
-        Self { stream, left: limits.total_bytes, limits, ids: Ids::default() }
+        Self { version, stream, left: limits.total_bytes, limits, ids: Ids::default() }
     }
 
     pub(super) fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Damage> {

@@ -9,7 +9,7 @@ use trigon_mesh::primitives;
 use trigon_scene::math::{DVec3, Vec3};
 use trigon_scene::{
     AmbientOcclusion, Animation, Channel, Curve, EffectSettings, Interpolation, Light, Material, Node,
-    Outline, Property, Shadows, SightRays, Skin, Texture, TextureFormat, render,
+    Outline, Property, Shadows, SightRays, Skin, SoftShadows, Texture, TextureFormat, render,
 };
 
 use super::{fnv1a, *};
@@ -50,7 +50,7 @@ fn message(bytes: &[u8]) -> String {
 
 /// The uncompressed parts of a file.
 fn parts(file: &[u8]) -> Vec<u8> {
-    let (_, compressed) = opened(Path::new("a"), file).expect("a good file");
+    let Opened { compressed, .. } = opened(Path::new("a"), file).expect("a good file");
     let mut parts = Vec::new();
     ZlibDecoder::new(compressed).read_to_end(&mut parts).expect("good parts");
     parts
@@ -68,10 +68,37 @@ fn what_is_read_is_written_again_bit_by_bit() {
 #[test]
 fn another_version_is_named_beside_ours() {
     let message = message(&sealed(9, "7.8.9", b"whatever"));
-    let ours = [format!("reads version {VERSION}"), concat!("trigon ", env!("CARGO_PKG_VERSION")).to_owned()];
+    let ours = [
+        format!("reads versions {OLDEST} to {VERSION}"),
+        concat!("trigon ", env!("CARGO_PKG_VERSION")).to_owned(),
+    ];
     for word in ["version 9", "trigon 7.8.9;"].map(str::to_owned).into_iter().chain(ours) {
         assert!(message.contains(&word), "{word:?} in {message:?}");
     }
+}
+
+/// Version 7 knew neither radii of lights nor soft shadows.
+#[test]
+fn a_capture_of_version_7_has_lamps_without_an_extent() {
+    let [lamp, usual] = [1234.5_f32, 5432.1];
+    let mut capture = capture();
+    let lights = |scene: &Scene| -> Vec<Light> {
+        scene.nodes().iter().filter_map(|(_, node)| node.light.as_deref().copied()).collect()
+    };
+    let (_, node) =
+        capture.scene.nodes_mut().find(|(_, node)| node.light.is_some()).expect("there is a spot");
+    node.light = node.light.as_ref().map(|light| Box::new(light.with_radius(lamp)));
+    capture.settings.effects.soft_shadows.radius = usual;
+    let mut parts = parts(&capture.to_bytes());
+    // The radius of lamps without one is followed by the number of rays and where they start.
+    for (radius, length) in [(lamp, 4), (usual, 9)] {
+        let bytes = radius.to_le_bytes();
+        let at = parts.windows(4).position(|window| window == bytes).expect("it is written");
+        parts.drain(at..at + length);
+    }
+    let old = read(&sealed(7, "0", &parts)).expect("an older capture");
+    assert_eq!(old.settings.effects.soft_shadows, SoftShadows::default());
+    assert_eq!(lights(&old.scene), [Light::spot(1.0)], "sharp");
 }
 
 #[test]

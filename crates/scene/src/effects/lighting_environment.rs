@@ -10,12 +10,12 @@ use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, Simd};
 
 use super::metal_studio::{MetalStudio, StudioOnMetal};
-use super::rays::{AmbientRays, OpennessBuffer, Optics, RayPart, RayScene, RayStarts};
+use super::rays::{AmbientRays, LampRays, OpennessBuffer, Optics, RayPart, RayScene, RayStarts};
 use super::shadow::ShadowMaps;
 use crate::effect_settings::Fog;
 use crate::environment::Surroundings;
 use crate::lanes::{V3, dot, exp2, mix, splat};
-use crate::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
+use crate::lighting::{Lights, LitPoints, Microfacets};
 use crate::material::Material;
 use crate::settings::Background;
 use crate::settings::RenderSettings;
@@ -30,6 +30,10 @@ pub(crate) struct LightingEnvironment {
     pub(crate) rays: Option<RayScene>,
     /// Whether rays test the visibility of lamps.
     pub(crate) shadow_rays: bool,
+    /// The rays to lamps with an extent, if shadows are computed by rays.
+    pub(crate) lamp_rays: Option<LampRays>,
+    /// What they found, for the lamps, by their numbers, of which neighbours share it; empty if none do.
+    pub(crate) lamp_buffers: Vec<Option<OpennessBuffer>>,
     pub(crate) ambient_rays: Option<AmbientRays>,
     /// What they found, if neighbours share it.
     pub(crate) occlusion_buffer: Option<OpennessBuffer>,
@@ -67,23 +71,6 @@ impl LightingEnvironment {
     /// Whether all light is grey, so that a white surface is grey everywhere.
     pub(crate) fn are_grey(&self) -> bool {
         self.lights.are_grey() && self.surroundings.is_none()
-    }
-
-    /// The unshadowed fraction of a lamp's light; `None` if all of it arrives.
-    #[inline(always)]
-    pub(crate) fn share<S: Simd>(
-        &self,
-        simd: S,
-        number: usize,
-        lamp: &Lamp,
-        points: &LitPoints<S>,
-        arriving: &Arriving<S>,
-    ) -> Option<F32<S>> {
-        if let Some(maps) = &self.shadow_maps {
-            return maps.share(simd, number, points, arriving.towards);
-        }
-        let rays = self.rays.as_ref().filter(|_| self.shadow_rays)?;
-        Some(rays.lit(simd, lamp, points, arriving))
     }
 
     /// The fraction of eight points' surroundings that is open; `None` without ambient occlusion. The positions are in

@@ -190,8 +190,7 @@ mod tests {
     fn head_on(studio: &MetalStudio, towards: Vec3, roughness: f32) -> [f32; 2] {
         let simd = Fallback::new();
         let towards = splat(simd, towards);
-        let points =
-            LitPoints { position: towards, normal: towards, facing: towards, plane: towards, view: towards };
+        let points = LitPoints::elsewhere(simd, towards, towards, towards);
         let StudioOnMetal { mirrored, around } = studio.light(simd, &points, F32::splat(simd, roughness));
         [mirrored, around].map(|light| light[0])
     }

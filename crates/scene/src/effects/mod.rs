@@ -5,8 +5,10 @@
 
 mod casters;
 mod finish;
+mod lamp_visibility;
 mod lighting_environment;
 mod metal_studio;
+mod penumbra;
 mod rays;
 mod shadow;
 mod sight;
@@ -18,10 +20,12 @@ pub(crate) use casters::{Caster, Casters, ShadowSource};
 pub(crate) use finish::{draw_outline, encode, lay_on_background, map_tones};
 pub(crate) use lighting_environment::{FogModel, LightingEnvironment, VisibleBackdrop};
 pub(crate) use metal_studio::MetalStudio;
+pub(crate) use penumbra::NearestDepths;
 pub(crate) use rays::{
-    AmbientRays, Glass, OpennessBuffer, Optics, RayCache, RayPart, RayStarts, SmallView, rows,
+    AmbientRays, Glass, LampRays, OpennessBuffer, OpennessOf, Optics, RayCache, RayPart, RayStarts,
+    SmallImage, SmallView, rows,
 };
-pub(crate) use shadow::{LampPose, PlacedMap, ShadowMap, ShadowMaps, View, views};
+pub(crate) use shadow::{LampPose, LampView, PlacedMap, ShadowMap, ShadowMaps, View, views};
 pub(crate) use sight::{SightStart, refracted};
 
 /// The cost of an effect in a frame.

@@ -27,6 +27,7 @@ use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, I32, LANES, Simd, greater, inlined, lanes_of, lesser};
 
 use super::casters::Casters;
+use super::penumbra::{MapPoints, NearestDepths, Penumbra};
 use crate::lanes::{V3, dot, mapped, mix, positive, scaled, splat, sum};
 use crate::lighting::LitPoints;
 use crate::work::{Work, note};
@@ -38,6 +39,8 @@ pub(crate) struct ShadowMap {
     pub(crate) resolution: u32,
     /// Reversed depth, 0 where nothing is; row by row.
     pub(crate) depths: Vec<f32>,
+    /// For lamps with an extent.
+    pub(crate) nearest: Option<NearestDepths>,
 }
 
 /// The shadow maps of a frame.
@@ -58,10 +61,15 @@ pub(crate) struct PlacedMap {
     /// The direction in which the map looks, in camera space, if its rays meet in the lamp; parallel
     /// ones come from the direction of the light.
     axis: Option<Vec3>,
+    /// The columns and rows at the edges that another map shows as well.
+    shown_elsewhere: f32,
+    /// Of a lamp with an extent.
+    penumbra: Option<Penumbra>,
 }
 
 impl PlacedMap {
-    pub(crate) fn new(map: Arc<ShadowMap>, camera_to_world: &DAffine3) -> Self {
+    /// A map of a lamp of this radius.
+    pub(crate) fn new(map: Arc<ShadowMap>, radius: f32, camera_to_world: &DAffine3) -> Self {
         let half = f64::from(map.resolution) / 2.0;
         // From -1…1, y up, to 0…resolution, y down.
         let to_texels = DMat4::from_cols(
@@ -72,16 +80,20 @@ impl PlacedMap {
         );
         let from_camera = map.view.world_to_clip() * DMat4::from(*camera_to_world);
         let texel = map.view.width_at_one / f64::from(map.resolution);
-        let to_texels = (to_texels * from_camera).as_mat4();
+        let exact = to_texels * from_camera;
+        let penumbra = Penumbra::new(radius, &map.view, map.resolution, &exact);
+        let shown_elsewhere = ((1.0 - map.view.own_part) * half) as f32;
+        let to_texels = exact.as_mat4();
         if map.view.camera.projection.is_orthographic() {
-            return Self { to_texels, texel: texel as f32, axis: None, map };
+            return Self { to_texels, texel: texel as f32, axis: None, shown_elsewhere, penumbra, map };
         }
         let along = map.view.camera.orientation * DVec3::NEG_Z;
         let axis = camera_to_world.matrix3.inverse() * along;
         // A point that is moved away from the lamp comes to where texels are wider: by the share
         // sin θ · cos θ · √2 of a texel at most, and all of it counts again.
         let wider = texel / (1.0 - FRAC_1_SQRT_2 * texel).max(0.5);
-        Self { to_texels, texel: wider as f32, axis: Some(axis.normalize_or_zero().as_vec3()), map }
+        let axis = Some(axis.normalize_or_zero().as_vec3());
+        Self { to_texels, texel: wider as f32, axis, shown_elsewhere, penumbra, map }
     }
 
     /// The fraction of the light that arrives at eight points, and which of them lie inside the
@@ -112,9 +124,14 @@ impl PlacedMap {
         let [x, y, depth, w] = mapped(&self.to_texels, moved);
         let inverse = F32::splat(simd, 1.0) / w;
         let [x, y, depth] = [x * inverse, y * inverse, depth * inverse];
-        let end = self.map.resolution as f32 + SEAM;
-        let known = w.simd_gt(0.0) & x.simd_ge(-SEAM) & y.simd_ge(-SEAM) & x.simd_lt(end) & y.simd_lt(end);
-        (self.map.compared(simd, [x, y], depth), known)
+        let start = self.shown_elsewhere - SEAM;
+        let end = self.map.resolution as f32 - start;
+        let is_known = w.simd_gt(0.0) & x.simd_ge(start) & y.simd_ge(start) & x.simd_lt(end) & y.simd_lt(end);
+        let Some(penumbra) = &self.penumbra else {
+            return (self.map.compared(simd, [x, y], depth), is_known);
+        };
+        let at = MapPoints { texels: [x, y], depth, position: moved, is_known };
+        (penumbra.share(simd, &self.map, points, &at), is_known)
     }
 }
 
@@ -149,7 +166,7 @@ impl ShadowMap {
     /// The fraction of four texels around points that are at least as far from the lamp as the
     /// points.
     #[inline(always)]
-    fn compared<S: Simd>(&self, simd: S, position: [F32<S>; 2], depth: F32<S>) -> F32<S> {
+    pub(super) fn compared<S: Simd>(&self, simd: S, position: [F32<S>; 2], depth: F32<S>) -> F32<S> {
         let (zero, side) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
         // The two texels on either side, at the edge of the map the nearest one twice; and the weight of the second.
         let axis = inlined(
@@ -211,6 +228,12 @@ impl ShadowMaps {
     pub(crate) fn byte_count(&self) -> usize {
         self.lamps.iter().flatten().map(|placed| size_of_val(placed.map.depths.as_slice())).sum()
     }
+
+    /// What lamps with an extent add to it.
+    pub(crate) fn extent_byte_count(&self) -> usize {
+        let nearest = self.lamps.iter().flatten().filter_map(|placed| placed.map.nearest.as_ref());
+        nearest.map(NearestDepths::byte_count).sum()
+    }
 }
 
 /// A lamp's position and direction, in the world.
@@ -220,6 +243,14 @@ pub(crate) enum LampPose {
     Directional(DVec3),
     /// Within a cone of half this angle (radians), or all around.
     Point { position: DVec3, cone: Option<(DVec3, f64)> },
+}
+
+/// A lamp as shadow maps see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LampView {
+    pub(crate) pose: LampPose,
+    /// Whether it has an extent.
+    pub(crate) is_soft: bool,
 }
 
 /// The widest cone (radians, the whole angle) that one view covers; wider ones would waste most
@@ -234,6 +265,8 @@ pub(crate) struct View {
     pub(crate) aspect: f64,
     /// Its width in metres where w is 1, in its longer direction.
     pub(crate) width_at_one: f64,
+    /// The part of its width and height in which no other view of the lamp shows more.
+    pub(crate) own_part: f64,
 }
 
 impl View {
@@ -241,23 +274,35 @@ impl View {
     pub(crate) fn world_to_clip(&self) -> DMat4 {
         self.camera.view_projection(self.aspect)
     }
+
+    /// Its width and height in metres where w is 1.
+    pub(crate) fn sizes_at_one(&self) -> [f64; 2] {
+        let (longer, aspect) = (self.width_at_one, self.aspect);
+        if aspect >= 1.0 { [longer, longer / aspect] } else { [longer * aspect, longer] }
+    }
 }
 
 /// The views of a lamp; none if there is nothing that it could see.
-pub(crate) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
+pub(crate) fn views(lamp: &LampView, casters: &Casters) -> Vec<View> {
+    /// How much farther the views of a lamp with an extent reach, in radians, to each side: a penumbra may need it.
+    const BESIDE: f64 = 0.12;
     if casters.bounds.is_empty() {
         return Vec::new();
     }
-    match *pose {
+    let beside = if lamp.is_soft { BESIDE } else { 0.0 };
+    match lamp.pose {
         LampPose::Directional(along) => parallel(along, casters).into_iter().collect(),
         LampPose::Point { position, cone: Some((along, half)) } if 2.0 * half < WIDEST => {
             // Slightly wider, so that the edge has neighbours.
-            meeting(position, along, 2.0 * half + 0.02, &casters.bounds).into_iter().collect()
+            let angle = 2.0 * (half + beside) + 0.02;
+            meeting(position, along, angle, &casters.bounds).into_iter().collect()
         }
         LampPose::Point { position, .. } => {
             let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
-            let quarter = std::f64::consts::FRAC_PI_2;
-            sides.filter_map(|along| meeting(position, along, quarter, &casters.bounds)).collect()
+            let angle = std::f64::consts::FRAC_PI_2 + 2.0 * beside;
+            let own_part = if lamp.is_soft { 1.0 / elementary::tan(0.5 * angle) } else { 1.0 };
+            let views = sides.filter_map(|along| meeting(position, along, angle, &casters.bounds));
+            views.map(|view| View { own_part, ..view }).collect()
         }
     }
 }
@@ -276,7 +321,7 @@ fn parallel(along: DVec3, casters: &Casters) -> Option<View> {
     let projection = Projection::orthographic(height, -depth, depth).ok()?;
     let camera = Camera { position: turned.to_world(middle), projection, ..turned };
     let width_at_one = if width > height { width } else { height };
-    Some(View { camera, aspect: width / height, width_at_one })
+    Some(View { camera, aspect: width / height, width_at_one, own_part: 1.0 })
 }
 
 /// Rays that meet in the lamp.
@@ -289,5 +334,6 @@ fn meeting(position: DVec3, along: DVec3, angle: f64, casters: &Bounds3) -> Opti
     let farthest = farthest.fold(0.0, |far, distance| if distance > far { distance } else { far });
     let projection = Projection::perspective(angle, farthest * NEAREST, None).ok()?;
     let camera = Camera { projection, ..Camera::look_at(position, position + along, DVec3::Y) };
-    Some(View { camera, aspect: 1.0, width_at_one: 2.0 * elementary::tan(angle * 0.5) })
+    let width_at_one = 2.0 * elementary::tan(angle * 0.5);
+    Some(View { camera, aspect: 1.0, width_at_one, own_part: 1.0 })
 }

@@ -14,7 +14,7 @@ use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 use super::LightingEnvironment;
 use super::rays::{Glass, Medium, Optics, RayScene, SurfaceHit, left_after, rows};
 use crate::lanes::{V3, moved, normalized, sum, turned};
-use crate::lighting::{Brdf, LitPoints};
+use crate::lighting::{Brdf, ImageLanes, LitPoints};
 
 /// Where sight rays come from.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +84,8 @@ struct Walk {
     alive: [bool; LANES],
     far: [FarLight; LANES],
     media: [Media; LANES],
+    /// Where they start in the image, in pixels: across, and down.
+    pixels: [[f32; LANES]; 2],
 }
 
 impl LightingEnvironment {
@@ -106,6 +108,7 @@ impl LightingEnvironment {
             #[inline(always)]
             || [rows(rays.origins(simd, points)), rows(turned(&rays.turn(), normalized(directions)))],
         );
+        let pixels = points.lanes.pixels.map(Into::into);
         let scene = TracedScene { lighting: self, rays };
         let mut media = Media::default();
         let far = match start {
@@ -126,6 +129,7 @@ impl LightingEnvironment {
             alive: lanes_of(|lane| active >> lane & 1 != 0),
             far: [far; LANES],
             media: [media; LANES],
+            pixels,
         };
         for _ in 0..self.bounces {
             let met = walk.met(simd, rays);
@@ -171,13 +175,13 @@ impl LightingEnvironment {
                 };
                 let turn = rays.turn().transpose();
                 let normal = turned(&turn, lanes(&visible_side));
-                let points = LitPoints {
-                    position: moved(&rays.from_scene, lanes(&|met, _| met.position)),
-                    normal,
-                    facing: normal,
-                    plane: normal,
-                    view: turned(&turn, lanes(&|_, along| -along)),
-                };
+                let position = moved(&rays.from_scene, lanes(&|met, _| met.position));
+                let view = turned(&turn, lanes(&|_, along| -along));
+                let met_lanes = (0..LANES).filter(|&lane| met[lane].is_some());
+                let active = met_lanes.fold(0, |bits, lane| bits | 1 << lane);
+                let pixels = walk.pixels.map(|axis| F32::simd_from(simd, axis));
+                let lanes = ImageLanes { pixels, active, is_direct: false };
+                let points = LitPoints { lanes, ..LitPoints::elsewhere(simd, position, normal, view) };
                 let reflected = self.reflected(simd, &points, &Brdf::Lambert);
                 let [r, g, b] = rows(sum(reflected.diffuse, self.around(simd, normal)));
                 lanes_of(|lane| Vec3::new(r[lane], g[lane], b[lane]))

@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 
 use trigon_math::{Vec3, elementary};
 use trigon_raster::simd::prelude::*;
-use trigon_raster::simd::{F32, Simd, greater, inlined, lanes_of};
+use trigon_raster::simd::{F32, LANES, Simd, greater, inlined, lanes_of};
 
 use crate::lanes::{V3, fifth_power, mix, positive, product, saturated, sum, table_step};
 
@@ -184,6 +184,35 @@ pub(crate) struct LitPoints<S: Simd> {
     pub(crate) plane: V3<S>,
     /// Unit vectors towards the eye.
     pub(crate) view: V3<S>,
+    pub(crate) lanes: ImageLanes<S>,
+}
+
+/// Where the image shows eight points: neighbouring pixels cast different rays, and share what they find.
+#[derive(Clone, Copy)]
+pub(crate) struct ImageLanes<S: Simd> {
+    /// In pixels, where the points are seen: directly, or by a ray that starts there.
+    pub(crate) pixels: [F32<S>; 2],
+    /// A bit for each point in use.
+    pub(crate) active: u64,
+    /// Whether the image shows the points themselves.
+    pub(crate) is_direct: bool,
+}
+
+impl<S: Simd> ImageLanes<S> {
+    /// Points that no pixel shows, such as vertices.
+    #[inline(always)]
+    pub(crate) fn elsewhere(simd: S) -> Self {
+        Self { pixels: [F32::splat(simd, 0.0); 2], active: (1 << LANES) - 1, is_direct: false }
+    }
+}
+
+impl<S: Simd> LitPoints<S> {
+    /// Points of which no pixel shows any, on triangles as even as their normals say.
+    #[inline(always)]
+    pub(crate) fn elsewhere(simd: S, position: V3<S>, normal: V3<S>, view: V3<S>) -> Self {
+        let lanes = ImageLanes::elsewhere(simd);
+        Self { position, normal, facing: normal, plane: normal, view, lanes }
+    }
 }
 
 /// The reflection model at eight points.

@@ -19,6 +19,8 @@ pub(crate) struct Lamp {
     pub(crate) source: LampSource,
     /// The linear RGB of a white surface in this light; for a point or spot light, at one metre.
     pub(crate) radiance: Vec3,
+    /// See [`Light::radius`]; 0 casts sharp shadows.
+    pub(crate) radius: f32,
     /// Its node.
     pub(crate) node: Option<u32>,
 }
@@ -71,13 +73,13 @@ impl Lamp {
                 LampSource::Point { position, inverse_range_squared, cone }
             }
         };
-        Some(Self { source, radiance: light.radiance(), node: Some(node) })
+        Some(Self { source, radiance: light.radiance(), radius: light.extent(), node: Some(node) })
     }
 
     /// Parallel light of the studio.
     pub(crate) fn studio(towards: Vec3, radiance: f32) -> Self {
         let source = LampSource::Directional(towards.normalize());
-        Self { source, radiance: Vec3::splat(radiance), node: None }
+        Self { source, radiance: Vec3::splat(radiance), radius: 0.0, node: None }
     }
 
     /// Whether the light depends on a surface's position, and not only on its normal.

@@ -3,15 +3,14 @@
 mod brdf;
 mod lamp;
 
-pub(crate) use brdf::{Brdf, LitPoints, Microfacets, Reflected};
+pub(crate) use brdf::{Brdf, ImageLanes, LitPoints, Microfacets, Reflected};
 pub(crate) use lamp::{Arriving, BRIGHTEST, Lamp, LampSource};
 
 use std::collections::BTreeMap;
 
 use trigon_math::{DAffine3, Vec3};
 
-use crate::light::LightKind;
-use crate::light::LightReading;
+use crate::light::{LightKind, LightReading, sound_radius};
 use crate::placement::Eye;
 use crate::scene::Scene;
 use crate::settings::{Lighting, RenderSettings};
@@ -66,6 +65,7 @@ impl Lights {
             Lighting::Automatic | Lighting::Scene => lights,
         }
         .scaled(settings.light_factor())
+        .extended(settings.effects.soft_shadows.radius)
     }
 
     fn of_scene(scene: &Scene, transforms: &BTreeMap<u32, DAffine3>, eye: &Eye, lighting: Lighting) -> Self {
@@ -104,6 +104,13 @@ impl Lights {
         self
     }
 
+    /// With a radius for lamps that have none.
+    fn extended(mut self, radius: f32) -> Self {
+        let radius = sound_radius(radius);
+        self.lamps.iter_mut().filter(|lamp| lamp.radius == 0.0).for_each(|lamp| lamp.radius = radius);
+        self
+    }
+
     /// Whether the light depends on a surface's position, and not only on its normal.
     pub(crate) fn need_position(&self) -> bool {
         self.lamps.iter().any(Lamp::needs_position)
@@ -130,7 +137,7 @@ mod tests {
         let simd = Fallback::new();
         let at = |vector| -> V3<Fallback> { splat(simd, vector) };
         let [position, normal] = [at(Vec3::NEG_Z * 2.0), at(Vec3::Z)];
-        let points = LitPoints { position, normal, facing: normal, plane: normal, view: normal };
+        let points = LitPoints::elsewhere(simd, position, normal, normal);
         let lighting = LightingEnvironment { lights: lights.clone(), ..LightingEnvironment::default() };
         let reflected = lighting.reflected(simd, &points, &Brdf::Lambert);
         Vec3::from(reflected.diffuse.map(|channel| channel[0]))

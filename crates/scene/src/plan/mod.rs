@@ -1,6 +1,7 @@
 //! The plan of a frame: which effects the scene needs, as far as the camera sees the scene, and why. The renderer does
 //! what the plan says. Frames can also be drawn without one of their effects, to see what the effect adds and costs.
 
+mod left_out;
 mod omission;
 mod reason;
 mod survey;
@@ -13,10 +14,9 @@ use trigon_math::Vec3;
 
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effect_settings::{Exposure, MetalReflection, Shadows, SightRays, ToneMapping};
+use crate::effect_settings::{Exposure, MetalReflection, Shadows};
 use crate::effects::FogModel;
 use crate::lighting::{IdleLamps, Lights};
-use crate::material::{Material, MaterialTexture};
 use crate::prepare::PreparedScene;
 use crate::scene::Scene;
 use crate::settings::{Background, Reflection, RenderSettings, ShadingModel, Style};
@@ -98,6 +98,7 @@ fn decide(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> Deci
             shadows(matches!(prepared.settings.effects.shadows, Shadows::Maps { .. }), prepared, survey)
         }
         Effect::ShadowRays => shadows(prepared.settings.effects.shadows == Shadows::Rays, prepared, survey),
+        Effect::SoftShadows => soft_shadows(prepared, survey),
         Effect::AmbientOcclusion => ambient_occlusion(prepared, survey),
         Effect::Fog => requested(prepared.settings.effects.fog.as_ref().and_then(FogModel::new).is_some()),
         Effect::ToneMapping => requested(prepared.settings.effects.maps_tones()),
@@ -157,6 +158,7 @@ fn shapes(effect: Effect) -> bool {
         | Effect::MetalStudio
         | Effect::ShadowMaps
         | Effect::ShadowRays
+        | Effect::SoftShadows
         | Effect::AmbientOcclusion
         | Effect::Reflection
         | Effect::Refraction
@@ -268,6 +270,14 @@ fn shadows(is_requested: bool, prepared: &PreparedScene<'_>, survey: &Survey) ->
     }
 }
 
+fn soft_shadows(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
+    shadows(prepared.settings.effects.shadows != Shadows::Off, prepared, survey)?;
+    match prepared.lights.lamps.iter().filter(|lamp| lamp.radius > 0.0).count() {
+        0 => Err(Absence::NoExtent),
+        lamps => Ok(Cause::Extent(lamps)),
+    }
+}
+
 fn ambient_occlusion(prepared: &PreparedScene<'_>, survey: &Survey) -> Outcome {
     if prepared.settings.effects.ambient_occlusion.is_none() {
         return Err(Absence::NotRequested);
@@ -328,69 +338,5 @@ fn of_objects(effect: Effect, prepared: &PreparedScene<'_>, survey: &Survey) -> 
         (0, _) => Err(Absence::OutOfView(elsewhere.clone())),
         _ if !faces && effect != Effect::Poses && !survey.is_of_wires(effect) => Err(Absence::NoFaces),
         _ => Ok(Cause::Objects(in_view.clone())),
-    }
-}
-
-impl Effect {
-    /// The same scene and settings without the effect; `None` for an effect that is part of the
-    /// scene itself.
-    pub fn left_out(self, scene: &Scene, settings: &RenderSettings) -> Option<(Scene, RenderSettings)> {
-        let (mut scene, mut settings) = (scene.clone(), settings.clone());
-        let effects = &mut settings.effects;
-        match self {
-            Self::Highlights => settings.reflection = Reflection::Lambert,
-            Self::Environment => {
-                effects.environment = None;
-                if settings.background == Background::Environment {
-                    settings.background = Background::default();
-                }
-            }
-            Self::MetalStudio => effects.metal_reflection = MetalReflection::Ambient,
-            Self::ShadowMaps | Self::ShadowRays => effects.shadows = Shadows::Off,
-            Self::AmbientOcclusion => effects.ambient_occlusion = None,
-            Self::Reflection => {
-                effects.sight = match effects.sight {
-                    SightRays::All { bounces } => SightRays::Glass { bounces },
-                    other => other,
-                };
-            }
-            Self::Refraction => each_material(&mut scene, |material| material.transmission = 0.0),
-            Self::Fog => effects.fog = None,
-            Self::LightMeter => effects.exposure = Exposure::Stops(0.0),
-            Self::ToneMapping => {
-                effects.tone_mapping = ToneMapping::None;
-                if let Exposure::Stops(stops) = &mut effects.exposure {
-                    *stops = 0.0;
-                }
-            }
-            Self::Outline => effects.outline = None,
-            Self::Edges => settings.style = Style::Surface,
-            Self::Textures => each_material(&mut scene, strip_textures),
-            Self::NormalMaps => each_material(&mut scene, |material| material.normal_map = None),
-            Self::OcclusionMaps => each_material(&mut scene, |material| material.occlusion = None),
-            Self::Emission => each_material(&mut scene, |material| {
-                (material.emissive, material.emissive_texture) = (Vec3::ZERO, None);
-            }),
-            Self::Lamps
-            | Self::AmbientLight
-            | Self::VertexColors
-            | Self::Masks
-            | Self::Transparency
-            | Self::Poses => return None,
-        }
-        Some((scene, settings))
-    }
-}
-
-fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
-    scene.materials.iter_mut().for_each(|(_, material)| change(material));
-}
-
-/// Removes all textures except normal and occlusion maps, which are separate effects.
-fn strip_textures(material: &mut Material) {
-    for slot in MaterialTexture::ALL {
-        if !matches!(slot.row().effect, Effect::NormalMaps | Effect::OcclusionMaps) {
-            material.set_texture(slot, None);
-        }
     }
 }

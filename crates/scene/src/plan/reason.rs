@@ -44,6 +44,8 @@ pub enum Cause {
         /// The number of shadow casters.
         casters: usize,
     },
+    /// So many of the lamps that cast shadows have an extent.
+    Extent(usize),
 }
 
 /// Why an effect is off.
@@ -72,6 +74,8 @@ pub enum Absence {
     NoLamp,
     /// Nothing in view has ambient light that it could change.
     NoAmbientLight,
+    /// No lamp that casts shadows has an extent.
+    NoExtent,
     /// The settings request it, but there are no shadow casters.
     NoCaster,
     /// No metal is visible.
@@ -189,6 +193,8 @@ impl fmt::Display for Cause {
                     "the settings request it, and {lamps} light{lights} and {casters} shadow caster{objects} are present"
                 )
             }
+            Self::Extent(1) => f.write_str("one light that casts shadows has an extent"),
+            Self::Extent(count) => write!(f, "{count} lights that cast shadows have an extent"),
         }
     }
 }
@@ -226,6 +232,7 @@ impl fmt::Display for Absence {
             Self::NoIntensity => f.write_str("the settings multiply all light by 0"),
             Self::NothingLit => f.write_str("no visible surface is lit"),
             Self::NoLamp => f.write_str("no light casts shadows"),
+            Self::NoExtent => f.write_str("no light that casts shadows has an extent"),
             Self::NoAmbientLight => f.write_str("there is no ambient light"),
             Self::NoCaster => f.write_str("no object casts shadows"),
             Self::NoMetal => f.write_str("no metal is visible"),

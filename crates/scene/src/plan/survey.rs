@@ -214,6 +214,7 @@ impl<'a> SurveyedMaterial<'a> {
             | Effect::Environment
             | Effect::ShadowMaps
             | Effect::ShadowRays
+            | Effect::SoftShadows
             | Effect::AmbientOcclusion
             | Effect::Fog
             | Effect::ToneMapping

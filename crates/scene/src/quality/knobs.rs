@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::effect_settings::{AmbientOcclusion, RaySampling, Shadows, SightRays};
+use crate::effect_settings::{MOST_RAYS, RaySampling, Shadows, SightRays};
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// The settings that trade accuracy for time.
@@ -22,6 +22,11 @@ pub struct Quality {
     pub occlusion_rays: u32,
     /// Where they start.
     pub occlusion_sampling: RaySampling,
+    /// As [`SoftShadows::rays`](crate::SoftShadows::rays) in frames with shadows by rays, 1 to 256; 0 leaves them and where
+    /// they start unchanged. (Its `Display` leaves them out: most scenes have no lamps with an extent.)
+    pub shadow_rays: u32,
+    /// Where they start.
+    pub shadow_sampling: RaySampling,
     /// The maximum number of surfaces that a ray through glass meets in frames that trace glass
     /// alone, 1 to 16; 0 leaves it unchanged. (Its `Display` leaves it out: most scenes have no
     /// glass.)
@@ -42,6 +47,11 @@ impl Quality {
             occlusion_sampling: effects
                 .ambient_occlusion
                 .map_or(RaySampling::Full, |occlusion| occlusion.sampling),
+            shadow_rays: if effects.shadows == Shadows::Rays { effects.soft_shadows.rays } else { 0 },
+            shadow_sampling: match effects.shadows {
+                Shadows::Rays => effects.soft_shadows.sampling,
+                Shadows::Off | Shadows::Maps { .. } => RaySampling::Full,
+            },
             glass_bounces: match effects.sight {
                 SightRays::Glass { bounces } => bounces,
                 SightRays::Off | SightRays::All { .. } => 0,
@@ -63,6 +73,10 @@ impl Quality {
             && self.occlusion_rays > 0
         {
             (occlusion.rays, occlusion.sampling) = (self.occlusion_rays, self.occlusion_sampling);
+        }
+        if effects.shadows == Shadows::Rays && self.shadow_rays > 0 {
+            let soft = &mut effects.soft_shadows;
+            (soft.rays, soft.sampling) = (self.shadow_rays, self.shadow_sampling);
         }
         if let SightRays::Glass { bounces } = &mut effects.sight
             && self.glass_bounces > 0
@@ -87,7 +101,7 @@ impl Quality {
     }
 
     /// More is finer.
-    fn fineness(&self) -> [u32; 6] {
+    fn fineness(&self) -> [u32; 7] {
         let shading = match self.shading {
             ShadingModel::Flat => 0,
             ShadingModel::Gouraud => 1,
@@ -99,12 +113,14 @@ impl Quality {
             Shadows::Rays => u32::MAX,
         };
         // Few rays at every sample show more than many that pixels share.
-        let occlusion = match self.occlusion_sampling {
-            RaySampling::Shared => self.occlusion_rays.min(AmbientOcclusion::MOST_RAYS),
-            RaySampling::Full if self.occlusion_rays == 0 => 0,
-            RaySampling::Full => AmbientOcclusion::MOST_RAYS + self.occlusion_rays,
+        let rays = |rays: u32, sampling| match sampling {
+            RaySampling::Shared => rays.min(MOST_RAYS),
+            RaySampling::Full if rays == 0 => 0,
+            RaySampling::Full => MOST_RAYS + rays,
         };
-        [self.shaded_samples(), self.covered_samples(), shading, shadows, occlusion, self.glass_bounces]
+        let occlusion = rays(self.occlusion_rays, self.occlusion_sampling);
+        let soft = rays(self.shadow_rays, self.shadow_sampling);
+        [self.shaded_samples(), self.covered_samples(), shading, shadows, occlusion, soft, self.glass_bounces]
     }
 
     /// Lighting evaluations per pixel.
@@ -184,6 +200,8 @@ impl Preset {
                 shadows: maps,
                 occlusion_rays: 32,
                 occlusion_sampling: RaySampling::Shared,
+                shadow_rays: 0,
+                shadow_sampling: RaySampling::Full,
                 glass_bounces: 4,
             },
             Self::Standard => {
@@ -194,9 +212,16 @@ impl Preset {
                 shadows: Shadows::Rays,
                 occlusion_rays: 16,
                 occlusion_sampling: RaySampling::Full,
+                shadow_rays: 64,
+                shadow_sampling: RaySampling::Shared,
                 ..Self::Standard.quality()
             },
-            Self::Reference => Quality { samples: 16, occlusion_rays: 64, ..Self::High.quality() },
+            Self::Reference => Quality {
+                samples: 16,
+                occlusion_rays: 64,
+                shadow_sampling: RaySampling::Full,
+                ..Self::High.quality()
+            },
         }
     }
 
@@ -240,7 +265,7 @@ pub struct UnknownPreset(pub String);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effect_settings::EffectSettings;
+    use crate::effect_settings::{AmbientOcclusion, EffectSettings};
     use crate::quality::Preset;
 
     fn asking_for_all() -> RenderSettings {

@@ -16,7 +16,7 @@ use super::wire::{ColoredLines, HiddenLine, PointColors, Wire, WireMarks, WirePa
 use super::wire::{VertexList, VertexLists};
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effects::{Counts, LightingEnvironment, Optics};
+use crate::effects::{Counts, LightingEnvironment, OpennessOf, Optics};
 use crate::elements;
 use crate::geometry::{Geometry, Run};
 use crate::material::{AlphaMode, Material, MaterialTexture, Shading};
@@ -61,8 +61,8 @@ enum Purpose {
     Colors,
     /// Depth and ids only: nothing is shaded.
     Shapes,
-    /// How open the surroundings of surfaces are.
-    Openness,
+    /// How open surfaces are.
+    Openness(OpennessOf),
 }
 
 /// One mesh at one node.
@@ -123,14 +123,15 @@ impl<'s> Composer<'s> {
         Self { purpose: Purpose::Shapes, ..colors }
     }
 
-    /// For a pass over the surfaces that finds how open their surroundings are.
+    /// For a pass over the surfaces that finds how open they are.
     pub(super) fn of_openness(
+        of: OpennessOf,
         prepared: &'s PreparedScene<'_>,
         lighting: &'s LightingEnvironment,
         vertex_lists: &'s VertexLists,
     ) -> Self {
         let colors = Self::new(prepared, prepared.settings, lighting, vertex_lists);
-        Self { purpose: Purpose::Openness, ..colors }
+        Self { purpose: Purpose::Openness(of), ..colors }
     }
 
     /// What they share.
@@ -178,16 +179,16 @@ impl<'s> Composer<'s> {
         draws: &mut Vec<Box<dyn Record + 'c>>,
         counts: &mut Counts,
     ) {
-        if self.purpose == Purpose::Openness {
+        if let Purpose::Openness(of) = self.purpose {
             let runs = object.geometry.runs.iter();
-            return draws.extend(runs.filter_map(|run| self.openness(object, run)));
+            return draws.extend(runs.filter_map(|run| self.openness(object, run, of)));
         }
         match self.settings.style {
             Style::Surface | Style::SurfaceWithEdges => {
                 let runs = object.geometry.runs.iter();
                 draws.extend(runs.filter_map(|run| match self.purpose {
                     Purpose::Colors => Some(self.surface(object, run, counts)),
-                    Purpose::Shapes | Purpose::Openness => self.shape(object, run),
+                    Purpose::Shapes | Purpose::Openness(_) => self.shape(object, run),
                 }));
             }
             Style::HiddenLine => {
@@ -359,16 +360,21 @@ impl<'s> Composer<'s> {
         SharedLook::new(self.triangle_run(object, object.geometry, run), &bare, bound, &context)
     }
 
-    /// The same triangles with how open their surroundings are. Those that are seen through are left out.
-    fn openness<'c>(&'c self, object: &DrawnObject<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
+    /// The same triangles with how open they are. Those that are seen through are left out.
+    fn openness<'c>(
+        &'c self,
+        object: &DrawnObject<'s>,
+        run: &Run,
+        of: OpennessOf,
+    ) -> Option<Box<dyn Record + 'c>>
     where
         's: 'c,
     {
-        let shared = self.looks.of(object.key(run), || self.opened(object, run));
+        let shared = self.looks.of(object.key(run), || self.opened(object, run, of));
         (shared.alpha_mode != AlphaMode::Blend).then(|| self.placed::<false>(object, run, shared))
     }
 
-    fn opened(&self, object: &DrawnObject<'s>, run: &Run) -> SharedLook<'s> {
+    fn opened(&self, object: &DrawnObject<'s>, run: &Run, of: OpennessOf) -> SharedLook<'s> {
         let context = self.context();
         let displayed = self.displayed(object, run.slot);
         let is_lit = context.reflection.of(&displayed) != Shading::Unlit;
@@ -381,7 +387,7 @@ impl<'s> Composer<'s> {
             bound.strip();
         }
         if is_lit {
-            bound.measure_openness(columns);
+            bound.measure_openness(columns, of);
         }
         SharedLook::new(self.triangle_run(object, object.geometry, run), &bare, bound, &context)
     }

@@ -6,15 +6,16 @@ use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 use crate::effect::Effect;
 use crate::effect_settings::Shadows;
 use crate::effects::{
-    AmbientRays, Casters, Counts, FogModel, LampPose, LightingEnvironment, RayCache, VisibleBackdrop,
+    AmbientRays, Casters, Counts, FogModel, LampRays, LightingEnvironment, RayCache, VisibleBackdrop,
     draw_outline, encode, lay_on_background, map_tones,
 };
 use crate::frame::{Frame, resize};
+use crate::lighting::Lamp;
 use crate::outputs::{Needed, VisibleIds};
 use crate::plan::{Cause, Decision, EffectPlan};
 use crate::prepare::PreparedScene;
 use crate::settings::RenderSettings;
-use crate::shadow_maps::{CastingScene, ShadowCache};
+use crate::shadow_maps::{CastingScene, MappedLamp, ShadowCache};
 
 /// What a renderer keeps from frame to frame. It never changes a byte.
 #[derive(Default)]
@@ -59,6 +60,8 @@ impl EffectCaches {
             world_to_sky: prepared.world_to_sky().as_mat3(),
             fog: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(FogModel::new),
             shadow_rays: on(Effect::ShadowRays),
+            lamp_rays: (on(Effect::ShadowRays) && on(Effect::SoftShadows))
+                .then(|| LampRays::new(effects.soft_shadows)),
             ambient_rays: effects
                 .ambient_occlusion
                 .filter(|_| on(Effect::AmbientOcclusion))
@@ -78,14 +81,15 @@ impl EffectCaches {
         }
         let casters = Casters::gather(prepared.scene, &prepared.shapes);
         if let (true, Shadows::Maps { resolution }) = (on(Effect::ShadowMaps), effects.shadows) {
-            let poses: Vec<LampPose> = prepared.lights.lamps.iter().map(|lamp| prepared.pose(lamp)).collect();
+            let mapped = |lamp: &Lamp| MappedLamp { pose: prepared.pose(lamp), radius: lamp.radius };
+            let lamps: Vec<MappedLamp> = prepared.lights.lamps.iter().map(mapped).collect();
             let casting = CastingScene {
                 scene: prepared.scene,
                 casters: &casters,
                 camera_to_world: &prepared.camera_to_world,
             };
             let resolution = resolution.clamp(16, 8192);
-            lighting.shadow_maps = Some(self.shadows.maps(&poses, &casting, resolution, rasterizer)?);
+            lighting.shadow_maps = Some(self.shadows.maps(&lamps, &casting, resolution, rasterizer)?);
         }
         if rays {
             lighting.rays =
@@ -124,6 +128,7 @@ impl EffectCaches {
         if let Some(maps) = &lighting.shadow_maps {
             counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
             counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
+            counts.of(Effect::SoftShadows).bytes = maps.extent_byte_count() as u64;
         }
         if let Some(surroundings) = &lighting.surroundings {
             counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
@@ -135,12 +140,17 @@ impl EffectCaches {
             counts.of(Effect::AmbientOcclusion).passes = 1;
             counts.of(Effect::AmbientOcclusion).bytes = buffer.byte_count() as u64;
         }
+        for buffer in lighting.lamp_buffers.iter().flatten() {
+            counts.of(Effect::SoftShadows).passes += 1;
+            counts.of(Effect::SoftShadows).bytes += buffer.byte_count() as u64;
+        }
         if let Some(rays) = &lighting.rays {
-            let [to_lamps, around, sight] = rays.cast();
+            let [to_lamps, around, sight, to_soft_lamps] = rays.cast();
             // Mirrors and glass share their rays.
             for (effect, cast) in [
                 (Effect::ShadowRays, to_lamps),
                 (Effect::AmbientOcclusion, around),
+                (Effect::SoftShadows, to_soft_lamps),
                 (Effect::Reflection, sight),
                 (Effect::Refraction, sight),
             ] {

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use trigon_camera::Camera;
-use trigon_math::{UVec2, Vec4};
+use trigon_math::UVec2;
 use trigon_raster::{
     Background, Cancel, ExecuteSettings, Pass, PixelExplanation, Rasterizer, Rect, Stats, Target, TargetError,
 };
@@ -21,9 +21,8 @@ use super::shared_frames::{ReusableFrame, SharedFrames};
 use super::wire::VertexLists;
 use crate::display::Display;
 use crate::effect::Effect;
-use crate::effect_settings::RaySampling;
-use crate::effects::{Counts, EffectCounts, LightingEnvironment, OpennessBuffer, SmallView};
-use crate::frame::{Frame, resize};
+use crate::effects::{Counts, EffectCounts, LightingEnvironment};
+use crate::frame::Frame;
 use crate::outputs;
 use crate::outputs::Needed;
 use crate::placement::DepthToDistance;
@@ -236,25 +235,6 @@ impl Engine {
         Ok(())
     }
 
-    /// The lighting environment, with what its surfaces share of ambient occlusion.
-    fn lighting(
-        &mut self,
-        prepared: &PreparedScene<'_>,
-        plan: &EffectPlan,
-        rasterizer: &mut Rasterizer,
-    ) -> Result<LightingEnvironment, TargetError> {
-        let mut lighting = self.caches.lighting(prepared, plan, rasterizer)?;
-        let is_shared =
-            lighting.ambient_rays.as_ref().is_some_and(|rays| rays.sampling == RaySampling::Shared);
-        if is_shared {
-            let draws = Composer::of_openness(prepared, &lighting, &self.vertex_lists);
-            let (buffer, stats) = draw_openness(prepared, &draws, rasterizer)?;
-            self.stats += stats;
-            lighting.occlusion_buffer = Some(buffer);
-        }
-        Ok(lighting)
-    }
-
     /// Draws only ids and depth.
     fn draw_ids(
         &mut self,
@@ -330,32 +310,6 @@ pub(super) fn record<T>(
     }
     draws.iter().for_each(|draw| draw.record(&mut pass));
     draw(&pass, &draws)
-}
-
-/// Draws how open the surroundings of surfaces are, at half the resolution.
-fn draw_openness(
-    prepared: &PreparedScene<'_>,
-    composer: &Composer<'_>,
-    rasterizer: &mut Rasterizer,
-) -> Result<(OpennessBuffer, Stats), TargetError> {
-    let RenderSettings { width, height, .. } = *prepared.settings;
-    let projection = &prepared.camera.projection;
-    let view = SmallView::new(projection, prepared.eye.projection(), [width, height]);
-    let draws = composer.draws(&mut Counts::default());
-    let mut pass = Pass::new();
-    pass.background(Background::Color(Vec4::ZERO));
-    draws.iter().for_each(|draw| draw.record(&mut pass));
-    let full = TargetError::Memory { width: view.width, height: view.height };
-    let pixels = view.width as usize * view.height as usize;
-    let (mut found, mut depths) = (Vec::new(), Vec::new());
-    resize(&mut found, pixels, Vec4::ZERO).ok_or(full)?;
-    resize(&mut depths, pixels, 0.0).ok_or(full)?;
-    let target = Target::new(view.width, view.height, &[])?;
-    let mut target = target.with_linear(&mut found)?.with_depth(&mut depths)?;
-    let stats = rasterizer.draw(&pass, &mut target);
-    let distance = DepthToDistance::new(projection, prepared.settings.aspect());
-    depths.iter_mut().for_each(|depth| *depth = distance.at(*depth));
-    Ok((OpennessBuffer::new(view, &found, &depths, rasterizer), stats))
 }
 
 /// How many samples a frame has.

@@ -20,6 +20,7 @@ mod fisheye;
 mod last_frame;
 mod lens_frame;
 mod looks;
+mod openness;
 mod record;
 mod renderer;
 mod shared_frames;

@@ -9,7 +9,7 @@ use super::{
     Coverage, Illumination, Layout, LightSlots, Maps, MaterialParams, MicrofacetModel, Model, TextureMap,
 };
 use crate::display::Display;
-use crate::effects::{LightingEnvironment, Optics};
+use crate::effects::{LightingEnvironment, OpennessOf, Optics};
 use crate::geometry::Columns;
 use crate::material::{
     AlphaMode, DrawnIf, Material, MaterialTexture, MetallicRoughness, Shading, TextureBinding,
@@ -101,9 +101,9 @@ impl<'a> BoundMaterial<'a> {
     }
 
     /// Leaves the openness of the surface in place of colours. Of its material alone the mask remains.
-    pub(crate) fn measure_openness(&mut self, columns: &Columns) {
+    pub(crate) fn measure_openness(&mut self, columns: &Columns, of: OpennessOf) {
         let layout = &mut self.layout;
-        self.illumination = Illumination::Openness;
+        self.illumination = Illumination::Openness(of);
         layout.position = Some(layout.add(3));
         layout.normal = columns.face_normals.is_none().then(|| layout.add(3));
     }
@@ -170,7 +170,7 @@ impl<'a> Fitting<'_, 'a> {
             Illumination::Value(Display::TextureCoordinates) if !columns.uv_sets.is_empty() => {
                 layout.shown_uv = Some(layout.add_coordinates(0, Affine2::IDENTITY));
             }
-            Illumination::Value(_) | Illumination::Openness => {}
+            Illumination::Value(_) | Illumination::Openness(_) => {}
         }
     }
 }

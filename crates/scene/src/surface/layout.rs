@@ -4,6 +4,7 @@
 use trigon_math::glam::Affine2;
 
 use crate::display::Display;
+use crate::effects::OpennessOf;
 
 /// The varyings of a draw. What is `None` is not interpolated.
 #[derive(Clone, Debug, Default)]
@@ -95,8 +96,8 @@ pub(crate) enum Illumination {
     OnFacets,
     /// Nowhere: surfaces show one of their values.
     Value(Display),
-    /// Nowhere: surfaces leave their normals, and how open their surroundings are, in an image of their own.
-    Openness,
+    /// Nowhere: surfaces leave their normals, and how much is visible from them, in an image of their own.
+    Openness(OpennessOf),
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::traced::TracedSurface;
 use super::{LightSlots, Surface, load, shown};
-use crate::effects::{RayPart, RayStarts};
-use crate::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
+use crate::effects::{OpennessOf, RayPart, RayStarts};
+use crate::lanes::{V3, dot, mixed, negated, normalized, product, scaled, select, splat, sum, turned};
 use crate::lighting::{Brdf, LitPoints, Reflected};
 use crate::material::MaterialTexture;
 use crate::work::{Work, note};
@@ -25,8 +25,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let normal = load(simd, vertices, &self.columns.normals);
         let normal = normalized(turned(&self.placement.normal_to_camera, normal));
         let position = self.placement.camera(simd, position);
-        let points =
-            LitPoints { position, normal, facing: normal, plane: normal, view: self.view(simd, position) };
+        let points = LitPoints::elsewhere(simd, position, normal, self.view(simd, position));
         self.set_side(simd, vertices, slots, slots.at, &points);
         if slots.two_sided {
             let back = LitPoints { normal: negated(normal), facing: negated(normal), ..points };
@@ -109,20 +108,29 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         )
     }
 
-    /// Normals, and the fraction of the surroundings that is open by a part of the rays: no colour.
-    pub(super) fn openness<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+    /// Normals, and the fraction of the surroundings or of a lamp that is visible by a part of the rays: no colour. Where
+    /// nothing is to be found out there is no normal either.
+    pub(super) fn openness<S: Simd>(
+        &self,
+        simd: S,
+        fragments: &FragmentLanes<'_, S>,
+        of: OpennessOf,
+    ) -> [F32<S>; 4] {
+        /// The pixels of a square cast all rays together.
+        const PART: RayPart = RayPart::OfSquare(4);
         simd.vectorize(
             #[inline(always)]
             || {
                 let points = self.points(simd, fragments);
                 let (pixels, active) = (fragments.position(), fragments.active());
-                // The pixels of a square cast all rays together.
-                let starts = RayStarts { points: &points, pixels, part: RayPart::OfSquare(4), active };
-                let open = match self.lighting.open_by_rays(simd, &starts) {
-                    Some(open) => open,
-                    None => F32::splat(simd, 1.0),
+                let starts = RayStarts { points: &points, pixels, part: PART, active };
+                let found = match of {
+                    OpennessOf::Surroundings => self.lighting.open_by_rays(simd, &starts),
+                    OpennessOf::Lamp(number) => self.lighting.lamp_by_rays(simd, number, &points, PART),
                 };
-                let [x, y, z] = points.facing;
+                let zero = F32::splat(simd, 0.0);
+                let Some(open) = found else { return [zero; 4] };
+                let [x, y, z] = select(open.simd_ge(zero), points.facing, [zero; 3]);
                 [x, y, z, open]
             },
         )

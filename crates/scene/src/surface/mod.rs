@@ -180,7 +180,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
                 let value = self.value(simd, fragments, display, [r, g, b, alpha]);
                 return self.finished(simd, value, alpha);
             }
-            Illumination::Openness => return self.openness(simd, fragments),
+            Illumination::Openness(of) => return self.openness(simd, fragments, of),
         };
         let mut shaded = self.with_emission(simd, fragments, shaded);
         if let (Some(fog), Some(at)) = (&self.lighting.fog, self.layout.position) {

@@ -11,7 +11,7 @@ use crate::display::Display;
 use crate::lanes::{
     V3, cross, difference, dot, negated, normalized, pow, saturated, scaled, select, splat, sum, turned,
 };
-use crate::lighting::LitPoints;
+use crate::lighting::{ImageLanes, LitPoints};
 use crate::material::MaterialTexture;
 use crate::placement::{Rays, Side};
 use crate::work::{Work, note};
@@ -50,6 +50,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             facing: select(front, facing, negated(facing)),
             plane: self.plane(simd, fragments).unwrap_or(facing),
             view: self.view(simd, position),
+            lanes: ImageLanes { pixels: fragments.position(), active: fragments.active(), is_direct: true },
         }
     }
 
@@ -165,7 +166,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             | Illumination::AtVertices
             | Illumination::InPixels
             | Illumination::Value(_)
-            | Illumination::Openness => base,
+            | Illumination::Openness(_) => base,
         };
         let emissive = self.params.material.emissive;
         if emissive != Vec3::ZERO {
@@ -211,7 +212,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         // The visible side is the one that faces the eye, whatever the winding.
         let faces_eye = dot(normal, view).simd_ge(0.0);
         let normal = select(faces_eye, normal, negated(normal));
-        LitPoints { position, normal, facing: normal, plane: normal, view }
+        LitPoints::elsewhere(simd, position, normal, view)
     }
 
     /// The positions of one corner of eight triangles, in the mesh's space.

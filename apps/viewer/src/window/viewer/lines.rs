@@ -233,7 +233,7 @@ fn take_settings(now: &mut RenderSettings, before: &RenderSettings, after: &Rend
         };
     }
     take_all!(&mut now.effects, &before.effects, &after.effects; EffectSettings {
-        shadows, ambient_occlusion, environment, metal_reflection, sight, fog, exposure, tone_mapping, outline
+        shadows, soft_shadows, ambient_occlusion, environment, metal_reflection, sight, fog, exposure, tone_mapping, outline
     } but);
     take_all!(now, before, after; RenderSettings {
         samples_per_axis, samples, background, style, display, line_width, point_size, edge_color, edge_opacity, x_ray, marks,

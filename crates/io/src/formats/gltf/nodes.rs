@@ -142,6 +142,9 @@ fn convert_node(
         let ambient =
             |from: &AmbientExtras| Box::new(Light::ambient(from.intensity).with_color(from.color.into()));
         node.light = extras.ambient.as_ref().map(ambient).or(node.light);
+        if let Some(light) = &mut node.light {
+            light.radius = if extras.radius > 0.0 { extras.radius } else { 0.0 };
+        }
     }
     node
 }

@@ -233,7 +233,8 @@ fn transforms_lights_and_shading_come_back_to_the_bit() {
         node.visible = index != 2;
     }
     let spot = Light { kind: LightKind::Spot { inner: 0.1, outer: 0.7 }, ..Light::spot(0.1) };
-    for light in [spot.with_range(3.3), Light::point(7.77), Light::directional(1.0), Light::ambient(0.3)] {
+    let sun = Light::directional(1.0).with_radius(0.00465);
+    for light in [spot.with_range(3.3).with_radius(0.1), Light::point(7.77), sun, Light::ambient(0.3)] {
         scene.add(Node::from_light(light.with_color(Vec3::new(0.1, 1.0, 0.9))));
     }
     let (second, warned) = document("a.glb", &saved(&NativeDocument::new(scene.clone())));

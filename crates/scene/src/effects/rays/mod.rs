@@ -8,6 +8,8 @@
 mod occlusion;
 mod openness_buffer;
 mod optics;
+mod pattern;
+mod soft_shadows;
 mod surface_hit;
 
 use std::sync::Arc;
@@ -16,7 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelExtend, ParallelIterator};
 use surface_hit::CasterSurfaces;
 use trigon_math::glam::Affine3;
-use trigon_math::{Bvh, DAffine3, DVec3, Ray, Rays, Vec3};
+use trigon_math::{Bvh, DAffine3, DVec3, Ray, Rays, Vec2, Vec3};
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, greater};
 
@@ -26,9 +28,11 @@ use crate::lighting::{Arriving, Lamp, LampSource, LitPoints};
 use crate::scene::Scene;
 use crate::work::{Work, note};
 
-pub(crate) use occlusion::{AmbientRays, RayPart, RayStarts};
-pub(crate) use openness_buffer::{OpennessBuffer, SmallView};
+pub(crate) use occlusion::{AmbientRays, RayStarts};
+pub(crate) use openness_buffer::{OpennessBuffer, OpennessOf, SmallImage, SmallView};
 pub(crate) use optics::{Glass, Medium, Optics, left_after};
+pub(crate) use pattern::{DiscPattern, GOLDEN_ANGLE, RayPart};
+pub(crate) use soft_shadows::{LampRays, LampStarts};
 pub(crate) use surface_hit::SurfaceHit;
 
 /// The triangles of all casters, around the middle of their box.
@@ -90,8 +94,8 @@ pub(crate) struct RayScene {
     to_scene: Affine3,
     /// And back.
     pub(super) from_scene: Affine3,
-    /// Shadow, occlusion and sight rays.
-    pub(super) cast: [AtomicU64; 3],
+    /// Shadow, occlusion, sight and soft shadow rays.
+    pub(super) cast: [AtomicU64; 4],
 }
 
 impl RayScene {
@@ -145,8 +149,9 @@ impl RayScene {
         self.triangles.surfaces.as_ref()?.glass(node, slot)
     }
 
-    /// The number of rays cast to lamps, into the surroundings, and along the line of sight.
-    pub(crate) fn cast(&self) -> [u64; 3] {
+    /// The number of rays cast to lamps without an extent, into the surroundings, along the line of sight, and to lamps
+    /// with an extent.
+    pub(crate) fn cast(&self) -> [u64; 4] {
         self.cast.each_ref().map(|cast| cast.load(Ordering::Relaxed))
     }
 
@@ -239,6 +244,19 @@ pub(super) fn columns<S: Simd>(simd: S, vectors: &[Vec3; LANES]) -> V3<S> {
         (x[lane], y[lane], z[lane]) = (vector.x, vector.y, vector.z);
     }
     [F32::simd_from(simd, x), F32::simd_from(simd, y), F32::simd_from(simd, z)]
+}
+
+/// Two unit vectors perpendicular to each of eight, turned about them.
+#[inline(always)]
+fn frames<S: Simd>(simd: S, normal: V3<S>, turns: [Vec2; LANES]) -> [V3<S>; 2] {
+    let [nx, ny, nz] = rows(normal);
+    let (mut right, mut up) = ([Vec3::ZERO; LANES], [Vec3::ZERO; LANES]);
+    for (lane, turn) in turns.into_iter().enumerate() {
+        let (tangent, bitangent) = Vec3::new(nx[lane], ny[lane], nz[lane]).any_orthonormal_pair();
+        right[lane] = tangent * turn.x + bitangent * turn.y;
+        up[lane] = bitangent * turn.x - tangent * turn.y;
+    }
+    [columns(simd, &right), columns(simd, &up)]
 }
 
 #[inline(always)]

@@ -1,42 +1,27 @@
 //! Ambient occlusion: the fraction of cosine-weighted rays that leave the surroundings of a point
 //! (H. Landis, "Production-Ready Global Illumination", 2002).
 //!
-//! The directions are a spiral over the disc below the hemisphere, which gives the cosine weights.
-//! [Full sampling](RaySampling::Full) casts all of them at every point, rotated about the normal by one of 16
-//! angles. Otherwise points cast a part of them each, and neighbours complete each other. The pixel's position in a
-//! square of four by four selects the angle or the part: neighbours differ, and the image is reproducible.
+//! The directions end on a [pattern](DiscPattern) over the disc below the hemisphere, which gives the cosine weights.
 
-use crate::work::{Work, note};
 use std::sync::atomic::Ordering;
 
-use trigon_math::{Hemispheres, Rays, Vec2, Vec3, elementary};
-use trigon_raster::simd::{F32, InlineMap, LANES, Mask, Simd, inlined, prelude::*};
+use trigon_math::{Hemispheres, Rays, Vec3};
+use trigon_raster::simd::{F32, LANES, Mask, Simd, prelude::*};
 
-use super::{RayScene, columns, rows};
-use crate::effect_settings::{AmbientOcclusion, RaySampling};
+use super::{DiscPattern, GOLDEN_ANGLE, RayPart, RayScene, columns, frames};
+use crate::effect_settings::{AmbientOcclusion, MOST_RAYS, RaySampling};
 use crate::lanes::{V3, scaled, sum, turned};
 use crate::lighting::LitPoints;
-
-/// Sines and cosines of the turns.
-const TURNS: usize = 16;
+use crate::work::{Work, note};
 
 /// The rays of each pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct AmbientRays {
-    /// Unit vectors around +Z.
+    pattern: DiscPattern,
+    /// Unit vectors around +Z, above the pattern's points.
     directions: Vec<Vec3>,
-    turns: [Vec2; TURNS],
     distance: f32,
     pub(crate) sampling: RaySampling,
-}
-
-/// Which of the rays start at a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum RayPart {
-    /// All, turned.
-    All,
-    /// Those of one in so many pixels, in a square of pixels: 2 or 4 is the square's side.
-    OfSquare(usize),
 }
 
 /// Eight points from which rays start.
@@ -52,31 +37,14 @@ pub(crate) struct RayStarts<'a, S: Simd> {
 
 impl AmbientRays {
     pub(crate) fn new(settings: AmbientOcclusion) -> Self {
-        /// The golden angle, in radians.
-        const STEP: f32 = 2.399_963_2;
-        let requested = settings.rays.clamp(1, AmbientOcclusion::MOST_RAYS);
-        let count = match settings.sampling {
-            RaySampling::Full => requested,
-            // Each pixel of a square gets as many.
-            RaySampling::Shared => requested.next_multiple_of(TURNS as u32),
-        };
-        let direction = |i: u32| {
-            let square = (i as f32 + 0.5) / count as f32;
-            let (radius, angle) = (square.sqrt(), i as f32 * STEP);
-            let flat = Vec2::new(elementary::cos_f32(angle), elementary::sin_f32(angle)) * radius;
-            flat.extend((1.0 - square).sqrt())
-        };
-        let turn = |i: usize| {
-            // Bit-reversed: neighbours differ most.
-            let angle = ((i as u8).reverse_bits() >> 4) as f32 / TURNS as f32 * std::f32::consts::TAU;
-            Vec2::new(elementary::cos_f32(angle), elementary::sin_f32(angle))
-        };
-        Self {
-            directions: (0..count).map(direction).collect(),
-            turns: std::array::from_fn(turn),
-            distance: settings.distance,
-            sampling: settings.sampling,
-        }
+        let AmbientOcclusion { rays, distance, sampling } = settings;
+        let pattern = DiscPattern::new(rays.clamp(1, MOST_RAYS), sampling, GOLDEN_ANGLE);
+        let raised = pattern
+            .points()
+            .iter()
+            .enumerate()
+            .map(|(i, flat)| flat.extend((1.0 - pattern.square(i)).sqrt()));
+        Self { directions: raised.collect(), pattern, distance, sampling }
     }
 
     /// The fraction of rays that leave the surroundings of eight points.
@@ -95,8 +63,8 @@ impl AmbientRays {
                 if active == 0 || surroundings.is_empty() {
                     return one;
                 }
-                let frames = self.frames(simd, normal, pixels, part);
-                let first = first_of(pixels, part);
+                let frames = frames(simd, normal, self.pattern.turns(pixels, part));
+                let first = part.first(pixels);
                 let step = part.step();
                 let count = self.directions.len() / step;
                 let (start, end) = (zero, F32::splat(simd, self.distance));
@@ -126,63 +94,4 @@ impl AmbientRays {
         }
         columns(simd, &directions)
     }
-
-    /// Two unit vectors along eight surfaces, turned as the positions of the pixels say if all rays are cast.
-    #[inline(always)]
-    fn frames<S: Simd>(&self, simd: S, normal: V3<S>, pixels: [F32<S>; 2], part: RayPart) -> [V3<S>; 2] {
-        let [nx, ny, nz] = rows(normal);
-        let numbers = numbers_in_square(pixels, 4);
-        let (mut right, mut up) = ([Vec3::ZERO; LANES], [Vec3::ZERO; LANES]);
-        for lane in 0..LANES {
-            let (tangent, bitangent) = Vec3::new(nx[lane], ny[lane], nz[lane]).any_orthonormal_pair();
-            let turn = match part {
-                RayPart::All => self.turns[numbers[lane]],
-                RayPart::OfSquare(_) => Vec2::X,
-            };
-            right[lane] = tangent * turn.x + bitangent * turn.y;
-            up[lane] = bitangent * turn.x - tangent * turn.y;
-        }
-        [columns(simd, &right), columns(simd, &up)]
-    }
-}
-
-impl RayPart {
-    /// One in so many rays is cast.
-    fn step(self) -> usize {
-        match self {
-            Self::All => 1,
-            Self::OfSquare(side) => side * side,
-        }
-    }
-}
-
-/// The number of the first ray of each pixel.
-#[inline(always)]
-fn first_of<S: Simd>(pixels: [F32<S>; 2], part: RayPart) -> [usize; LANES] {
-    match part {
-        RayPart::All => [0; LANES],
-        RayPart::OfSquare(side) => {
-            let bits = (side * side).trailing_zeros();
-            numbers_in_square(pixels, side).each(
-                #[inline(always)]
-                // Bit-reversed, as turns are.
-                |number| usize::from((number as u8).reverse_bits() >> (8 - bits)),
-            )
-        }
-    }
-}
-
-/// Where pixels lie in a square of pixels, row by row.
-#[inline(always)]
-fn numbers_in_square<S: Simd>([x, y]: [F32<S>; 2], side: usize) -> [usize; LANES] {
-    let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
-    let number = inlined(
-        #[inline(always)]
-        |lane: usize| (y[lane] as usize % side) * side + x[lane] as usize % side,
-    );
-    let mut numbers = [0; LANES];
-    for (lane, own) in numbers.iter_mut().enumerate() {
-        *own = number(lane);
-    }
-    numbers
 }

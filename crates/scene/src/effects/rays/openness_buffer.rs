@@ -1,7 +1,8 @@
-//! Ambient occlusion at half the resolution of an image, and how the samples of the image read it.
+//! How open surfaces are to their surroundings or to a lamp, at half the resolution of an image, and how the samples of the
+//! image read it.
 //!
 //! **Made** in two steps. A pass over the visible surfaces casts a sixteenth of the rays at each pixel of an image of
-//! half the size ([`AmbientRays`](super::AmbientRays)). Then every pixel takes the mean of the 4×4 pixels around it (5×5,
+//! half the size ([`AmbientRays`](super::AmbientRays), [`LampRays`](super::LampRays)). Then every pixel takes the mean of the 4×4 pixels around it (5×5,
 //! the outermost ones by half), which have cast all the rays together.
 //!
 //! **Read** bilinearly at every sample of the image.
@@ -9,6 +10,9 @@
 //! Both steps weigh a neighbour by its distance from the plane through the point, so neither objects nor the sides of an
 //! edge mix, and on surfaces that the eye sees at a grazing angle all neighbours count. The mean weighs it by the angle
 //! between both normals, too. Where no neighbour lies on a sample's surface, the buffer says so, and the sample casts rays.
+//!
+//! The mean would blur edges of shadows that are narrower than its reach. Where the means of a lamp change that fast, the
+//! buffer says that it knows nothing, too.
 
 use trigon_camera::Projection;
 use trigon_math::simd::Token;
@@ -31,7 +35,20 @@ const MEAN: [f32; 2 * REACH + 1] = [0.5, 1.0, 1.0, 1.0, 0.5];
 /// Where nothing is: farther from every plane than any weight reaches.
 const NOWHERE: f32 = 1e30;
 
-/// The fraction of open surroundings at each pixel of a small image.
+/// What is visible or not from surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum OpennessOf {
+    /// What is around them.
+    Surroundings,
+    /// The lamp of this number.
+    Lamp(usize),
+}
+
+/// In place of a fraction: the edge of a shadow is too narrow for the buffer. With any share of it, a sum of fractions
+/// is negative.
+const NARROW: f32 = -1e30;
+
+/// The fraction that is visible at each pixel of a small image.
 #[derive(Debug)]
 pub(crate) struct OpennessBuffer {
     view: SmallView,
@@ -116,16 +133,24 @@ impl SmallView {
     }
 }
 
+/// What the pass over the surfaces leaves, row by row.
+pub(crate) struct SmallImage<'a> {
+    pub(crate) view: SmallView,
+    /// The normal, zero where nothing is to be found out, and the fraction of the pixel's rays that nothing stops.
+    pub(crate) found: &'a [Vec4],
+    /// Along the axis of the view, in metres.
+    pub(crate) distances: &'a [f32],
+}
+
 impl OpennessBuffer {
-    /// From the pass over the surfaces: for each pixel the normal and the fraction of its rays that leave the
-    /// surroundings, and the distance along the view's axis.
-    pub(crate) fn new(view: SmallView, found: &[Vec4], distances: &[f32], rasterizer: &Rasterizer) -> Self {
-        let surfaces = Surfaces::new(view, found, distances);
-        let (stride, token) = (view.stride(), Token::best());
-        let mut open = vec![1.0; view.len()];
-        let rows = open.chunks_mut(stride).enumerate().skip(REACH).take(view.height as usize);
-        rasterizer.share(rows, |(row, open)| at_level!(token, simd => surfaces.mean(simd, row, open)));
-        Self { view, open, distances: surfaces.distances }
+    pub(crate) fn new(small: &SmallImage<'_>, of: OpennessOf, rasterizer: &Rasterizer) -> Self {
+        let surfaces = Surfaces::new(small);
+        let means = surfaces.each_row(None, rasterizer);
+        let open = match of {
+            OpennessOf::Surroundings => means,
+            OpennessOf::Lamp(_) => surfaces.each_row(Some(&means), rasterizer),
+        };
+        Self { view: small.view, open, distances: surfaces.distances }
     }
 
     pub(crate) fn byte_count(&self) -> usize {
@@ -204,7 +229,7 @@ struct Surfaces {
 }
 
 impl Surfaces {
-    fn new(view: SmallView, found: &[Vec4], distances: &[f32]) -> Self {
+    fn new(&SmallImage { view, found, distances }: &SmallImage<'_>) -> Self {
         let empty = |value| vec![value; view.len()];
         let normals = [empty(0.0), empty(0.0), empty(0.0)];
         let mut surfaces = Self { view, normals, distances: empty(NOWHERE), open: empty(1.0) };
@@ -224,20 +249,32 @@ impl Surfaces {
         surfaces
     }
 
-    /// The means of a row of pixels with their neighbours on the same surface.
+    /// The means of all pixels, or these without those that are too coarse.
+    fn each_row(&self, means: Option<&[f32]>, rasterizer: &Rasterizer) -> Vec<f32> {
+        let (view, token) = (&self.view, Token::best());
+        let mut open = vec![1.0; view.len()];
+        let rows = open.chunks_mut(view.stride()).enumerate().skip(REACH).take(view.height as usize);
+        rasterizer.share(rows, |(row, open)| at_level!(token, simd => self.row(simd, row, means, open)));
+        open
+    }
+
     #[inline(always)]
-    fn mean<S: Simd>(&self, simd: S, row: usize, open: &mut [f32]) {
+    fn row<S: Simd>(&self, simd: S, row: usize, means: Option<&[f32]>, open: &mut [f32]) {
         let start = row * self.view.stride();
         let columns = REACH..REACH + self.view.width as usize;
         for column in columns.step_by(LANES) {
             let distances = eight(simd, &self.distances, start + column);
             if distances.simd_lt(NOWHERE).any_true() {
-                let mean = self.mean_of_eight(simd, [column, row], distances);
-                mean.store_slice(&mut open[column..column + LANES]);
+                let found = match means {
+                    None => self.mean_of_eight(simd, [column, row], distances),
+                    Some(means) => self.fine_of_eight(simd, [column, row], distances, means),
+                };
+                found.store_slice(&mut open[column..column + LANES]);
             }
         }
     }
 
+    /// The means of eight pixels with their neighbours on the same surface.
     #[inline(always)]
     fn mean_of_eight<S: Simd>(&self, simd: S, [column, row]: [usize; 2], distance: F32<S>) -> F32<S> {
         let (view, zero, one) = (&self.view, F32::splat(simd, 0.0), F32::splat(simd, 1.0));
@@ -266,6 +303,51 @@ impl Surfaces {
             }
         }
         sum.simd_gt(0.0).select(open / sum, one)
+    }
+}
+
+impl Surfaces {
+    /// The means of eight pixels, or [`NARROW`] where those of their neighbours on the same surface differ by too much.
+    #[inline(always)]
+    fn fine_of_eight<S: Simd>(
+        &self,
+        simd: S,
+        [column, row]: [usize; 2],
+        distance: F32<S>,
+        means: &[f32],
+    ) -> F32<S> {
+        /// The most that means four pixels apart differ by. An edge of no width makes that 0.6 and more.
+        const STEEPEST: f32 = 0.35;
+        /// The most that a mean is off the middle of those, twice. It finds the ends of penumbras, and thin shadows.
+        const MOST_BENT: f32 = 0.08;
+        let view = &self.view;
+        let index = row * view.stride() + column;
+        let (zero, own) = (F32::splat(simd, 0.0), eight(simd, means, index));
+        let normal = self.normals.each_ref().each(
+            #[inline(always)]
+            |values| eight(simd, values, index),
+        );
+        let plane = dot(normal, view.positions([column, row], distance));
+        let width = view.spread(distance) * view.widest();
+        let at = inlined(
+            #[inline(always)]
+            |[column, row]: [usize; 2]| {
+                let index = row * view.stride() + column;
+                let position = view.positions([column, row], eight(simd, &self.distances, index));
+                let is_near = (dot(normal, position) - plane).abs().simd_lt(width);
+                is_near.select(eight(simd, means, index), own)
+            },
+        );
+        let ends = [
+            [at([column - REACH, row]), at([column + REACH, row])],
+            [at([column, row - REACH]), at([column, row + REACH])],
+        ];
+        let mut is_narrow = zero.simd_gt(zero);
+        for [before, after] in ends {
+            let bend = before + after - own * 2.0;
+            is_narrow |= (after - before).abs().simd_gt(STEEPEST) | bend.abs().simd_gt(MOST_BENT);
+        }
+        is_narrow.select(zero + NARROW, own)
     }
 }
 

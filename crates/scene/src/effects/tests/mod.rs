@@ -10,6 +10,7 @@ mod poses;
 mod shading;
 mod shadows;
 mod sight;
+mod soft_shadows;
 mod studio;
 mod unseen;
 
@@ -25,7 +26,7 @@ use crate::{
     AlphaMode, AmbientOcclusion, Background, Decision, EffectPlan, EffectSettings, Environment, Exposure,
     Fog, Frame, Light, LightKind, Lighting, Material, MetalReflection, MetallicRoughness, Node, NormalMap,
     Occlusion, Outline, RaySampling, RenderSettings, Renderer, Scene, Shading, ShadingModel, Shadows,
-    SightRays, Style, TextureBinding, ToneMapping, Transform, render,
+    SightRays, SoftShadows, Style, TextureBinding, ToneMapping, Transform, render,
 };
 
 const SIDE: u32 = 128;

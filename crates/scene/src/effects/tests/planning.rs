@@ -60,6 +60,10 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
             effects.shadows =
                 if effect == Effect::ShadowRays { Shadows::Rays } else { Shadows::Maps { resolution: 64 } };
         }
+        Effect::SoftShadows => {
+            (material, lights) = (lit, vec![Light::point(3.0).with_radius(0.3)]);
+            effects.shadows = Shadows::Rays;
+        }
         Effect::AmbientOcclusion => {
             (material, lights) = (lit, vec![Light::ambient(1.0)]);
             effects.ambient_occlusion = Some(AmbientOcclusion::new(4, 1.0));
@@ -158,6 +162,7 @@ fn reasons(work: Work) -> &'static [Effect] {
         Work::Pose => &[Effect::Poses],
         Work::ShadowMap | Work::ShadowLookUp => &[Effect::ShadowMaps],
         Work::ShadowRay => &[Effect::ShadowRays],
+        Work::SoftShadowRay | Work::PenumbraLookUp => &[Effect::SoftShadows],
         Work::OcclusionRay => &[Effect::AmbientOcclusion],
         Work::SightRay => &[Effect::Reflection, Effect::Refraction],
         Work::EnvironmentLight => &[Effect::Environment],
@@ -281,7 +286,8 @@ fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
             material.occlusion = material.occlusion.map(|map| Occlusion { strength, ..map });
             let ball = scene.add_object("ball", painted_ball(colored, posed), material);
             scene.node_mut(ball).expect("just added").morph_weights = if posed { vec![0.5] } else { vec![] };
-            for light in [lamp.map(Light::point), ambient.map(Light::ambient)].into_iter().flatten() {
+            let point = |intensity| Light::point(intensity).with_radius(if posed { 0.2 } else { 0.0 });
+            for light in [lamp.map(point), ambient.map(Light::ambient)].into_iter().flatten() {
                 scene.add(Node::from_light(light).at(DVec3::new(0.0, 0.0, 3.0)));
             }
             let lighting = [Lighting::Scene, Lighting::Automatic, Lighting::Studio][usize::from(lighting)];
@@ -294,6 +300,11 @@ fn any_scene() -> impl Strategy<Value = (Scene, RenderSettings)> {
                     sampling: [RaySampling::Full, RaySampling::Shared][usize::from(outline)],
                     ..AmbientOcclusion::new(2, 1.0)
                 }),
+                soft_shadows: SoftShadows {
+                    rays: 2,
+                    sampling: [RaySampling::Full, RaySampling::Shared][usize::from(fog)],
+                    ..SoftShadows::default()
+                },
                 fog: fog.then_some(Fog { color: Vec3::ONE, density: 0.1 }),
                 outline: outline.then(|| Outline { nodes: vec![ball], color: Vec3::X, width: 2 }),
                 sight: if bounces == 1 { SightRays::default() } else { SightRays::all(bounces) },
@@ -379,6 +390,7 @@ fn an_unlit_material_takes_no_effect_of_light() {
         Effect::MetalStudio,
         Effect::ShadowMaps,
         Effect::ShadowRays,
+        Effect::SoftShadows,
         Effect::AmbientOcclusion,
         Effect::Reflection,
         Effect::Refraction,
@@ -409,7 +421,7 @@ fn an_effect_that_is_left_out_is_off() {
         assert!(!plan.is_on(effect), "{effect}: {}", plan.decision(effect));
         count += 1;
     }
-    assert_eq!(count, 17, "all but those that are the scene itself");
+    assert_eq!(count, 18, "all but those that are the scene itself");
 }
 
 #[test]

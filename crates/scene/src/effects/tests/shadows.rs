@@ -87,8 +87,9 @@ fn lamp() -> impl Strategy<Value = Node> {
         .prop_map(|outer| Light { kind: LightKind::Spot { inner: outer * 0.9, outer }, ..Light::spot(1.0) });
     let light = prop_oneof![Just(Light::directional(1.0)), Just(Light::point(1.0)), spot];
     let target = [-0.3..0.3_f64, -0.3..0.3, -0.3..0.3].prop_map(DVec3::from);
-    (light, rotation(), prop_oneof![0.5..3.0_f64, 3.0..20.0], target).prop_map(
-        |(light, rotation, distance, target)| {
+    let radius = prop::sample::select(vec![0.0_f32, 0.01, 0.3, 2.0]);
+    (light, rotation(), prop_oneof![0.5..3.0_f64, 3.0..20.0], target, radius).prop_map(
+        |(light, rotation, distance, target, radius)| {
             let from = rotation * DVec3::Z * distance;
             let bright = Light {
                 intensity: if light.kind == LightKind::Directional {
@@ -96,6 +97,7 @@ fn lamp() -> impl Strategy<Value = Node> {
                 } else {
                     (distance * distance) as f32
                 },
+                radius,
                 ..light
             };
             shining(bright, from, target - from)

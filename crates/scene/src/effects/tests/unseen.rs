@@ -304,7 +304,8 @@ fn lamp() -> impl Strategy<Value = Node> {
             1 => LightKind::Point,
             _ => LightKind::Spot { inner: 0.1, outer: 0.5 },
         };
-        let light = Light { kind, color: Vec3::new(1.0, 0.8, 0.6), intensity, range };
+        let radius = if along.x > 0.0 { 0.1 } else { 0.0 };
+        let light = Light { kind, color: Vec3::new(1.0, 0.8, 0.6), intensity, range, radius };
         shining(light, from, along + DVec3::X * 0.25)
     })
 }

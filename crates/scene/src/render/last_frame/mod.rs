@@ -30,11 +30,12 @@ use crate::texture_asset::TextureId;
 
 /// Effects that make a tile depend on other tiles, on geometry out of view, or on another pass.
 /// Frames with them do not reuse the last image.
-const COUPLING: [Effect; 9] = [
+const COUPLING: [Effect; 10] = [
     Effect::LightMeter,
     Effect::Poses,
     Effect::ShadowMaps,
     Effect::ShadowRays,
+    Effect::SoftShadows,
     Effect::AmbientOcclusion,
     Effect::Reflection,
     Effect::Refraction,

@@ -256,6 +256,10 @@ fn is_zero(number: &usize) -> bool {
     *number == 0
 }
 
+fn is_nothing(number: &f32) -> bool {
+    *number == 0.0
+}
+
 /// Of a node.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 pub(super) struct NodeExtras {
@@ -265,6 +269,9 @@ pub(super) struct NodeExtras {
     /// The light, if it is of a kind that the format lacks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) ambient: Option<AmbientExtras>,
+    /// The radius of its light, which the format lacks.
+    #[serde(default, skip_serializing_if = "is_nothing")]
+    pub(super) radius: f32,
 }
 
 /// Ambient light.

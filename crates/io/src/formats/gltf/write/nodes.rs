@@ -39,10 +39,10 @@ pub(super) fn write_node(
     if now.light != was.light {
         write_light(draft, object, now);
     }
-    if (now.visible, ambient(now)) != (was.visible, ambient(was)) {
-        let own = NodeExtras { version: native::VERSION, hidden: !now.visible, ambient: ambient(now) };
+    if own_extras(now) != own_extras(was) {
+        let own = own_extras(now);
         let mut extras = object.object("extras");
-        let is_plain = now.visible && own.ambient.is_none();
+        let is_plain = own == own_extras(&Node::default());
         extras.set_or_remove(native::MEMBER, Some(&own).filter(|_| !is_plain));
         object.set_object("extras", &extras);
     }
@@ -100,9 +100,17 @@ pub(super) fn camera(projection: &Projection) -> Option<serde_json::Value> {
     }
 }
 
-fn ambient(node: &Node) -> Option<AmbientExtras> {
-    let light = node.light.as_deref().filter(|light| light.kind == LightKind::Ambient)?;
-    Some(AmbientExtras { color: light.color.to_array(), intensity: light.intensity })
+/// What the format lacks of a node.
+fn own_extras(node: &Node) -> NodeExtras {
+    let light = node.light.as_deref();
+    let ambient = light.filter(|light| light.kind == LightKind::Ambient);
+    NodeExtras {
+        version: native::VERSION,
+        hidden: !node.visible,
+        ambient: ambient
+            .map(|light| AmbientExtras { color: light.color.to_array(), intensity: light.intensity }),
+        radius: light.map_or(0.0, |light| light.radius).clamp(0.0, f32::MAX),
+    }
 }
 
 fn write_light(draft: &mut Draft<'_>, object: &mut RawObject, node: &Node) {
