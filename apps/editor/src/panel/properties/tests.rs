@@ -77,9 +77,10 @@ fn a_light_has_its_parameters() {
     case.type_number("Outer angle", "30");
     case.click("Limited range");
     case.type_number("Range", "4");
+    case.type_number("Radius", "0.25");
     let light =
         case.document().nodes().node(lamp).and_then(|node| node.light.clone()).expect("it is a light");
-    assert_eq!((light.intensity, light.range), (7.5, 4.0), "as typed");
+    assert_eq!((light.intensity, light.range, light.radius), (7.5, 4.0, 0.25), "as typed");
     let trigon_document::scene::LightKind::Spot { outer, .. } = light.kind else { panic!("it is a spot") };
     assert_eq!(outer, 30f32.to_radians(), "shown in degrees");
     case.image("properties_light");

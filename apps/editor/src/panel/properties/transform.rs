@@ -154,6 +154,7 @@ pub(super) fn light(ui: &mut Ui, object: ShownObject<'_>, light: Light, requests
     if shape != LightShape::Directional {
         range(ui, document, light, &unchanged, requests);
     }
+    radius(ui, document, light, &unchanged, requests);
     if let LightKind::Spot { inner, outer } = light.kind {
         cone(ui, document, [inner, outer], &unchanged, requests);
     }
@@ -202,6 +203,24 @@ fn range(ui: &mut Ui, document: &Document, light: Light, unchanged: &SetLight, r
     let response = row(ui, "Range", hover, |ui, width| number(ui, width, &mut value, &form, ""));
     if response.changed() {
         let command = SetLight { range: Some(value as f32), ..unchanged.clone() };
+        submit(ui, document, &response, command.into(), requests);
+    }
+}
+
+/// How large it is for its shadows.
+fn radius(ui: &mut Ui, document: &Document, light: Light, unchanged: &SetLight, requests: &mut Vec<Request>) {
+    let (unit, hover) = match light.kind {
+        LightKind::Directional => (
+            Unit::None,
+            "How large its disc is at a distance of one metre, for soft shadows: 0.00465 for the sun.",
+        ),
+        _ => (Unit::Metres, "How large it is, for soft shadows. 0 makes them sharp."),
+    };
+    let mut value = f64::from(light.radius);
+    let form = positive(f64::INFINITY, unit);
+    let response = row(ui, "Radius", hover, |ui, width| number(ui, width, &mut value, &form, ""));
+    if response.changed() {
+        let command = SetLight { radius: Some(value as f32), ..unchanged.clone() };
         submit(ui, document, &response, command.into(), requests);
     }
 }
