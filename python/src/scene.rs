@@ -252,7 +252,8 @@ impl PyScene {
     /// Adds a light: "ambient", "directional", "point" or "spot". A scene without lights has studio lights.
     ///
     /// `angle` is the half angle of a spot in degrees. Within `inner_angle`, 0.8 of it unless it is given, the light is
-    /// not yet weaker.
+    /// not yet weaker. Above a `radius` of 0 the shadows are soft: in metres, and of a directional light at a distance
+    /// of one metre (0.00465 for the sun).
     ///
     /// >>> import trigon3d
     /// >>> scene = trigon3d.Scene()
@@ -260,7 +261,7 @@ impl PyScene {
     /// 0
     #[pyo3(signature = (
         kind="directional", *, color=Channels::white(), intensity=1.0, position=[0.0; 3], direction=[0.0, 0.0, -1.0],
-        angle=45.0, inner_angle=None
+        angle=45.0, inner_angle=None, radius=0.0
     ))]
     fn add_light(
         &mut self,
@@ -271,14 +272,16 @@ impl PyScene {
         direction: [f64; 3],
         angle: f32,
         inner_angle: Option<f32>,
+        radius: f32,
     ) -> PyResult<usize> {
         let (position, direction) = (DVec3::from_array(position), DVec3::from_array(direction));
         let is_sound = position.is_finite() && direction.is_finite() && direction != DVec3::ZERO;
         let inner_angle = inner_angle.unwrap_or(0.8 * angle);
         let has_angles = (0.0..=90.0).contains(&angle) && (0.0..=angle).contains(&inner_angle);
-        if !(is_sound && intensity.is_finite() && intensity >= 0.0 && has_angles) {
+        let is_amount = |value: f32| value.is_finite() && value >= 0.0;
+        if !(is_sound && is_amount(intensity) && is_amount(radius) && has_angles) {
             return Err(value_error(
-                "a light has a finite position, a direction that is not 0, an intensity of at least 0, an angle up to 90 and an inner_angle up to that",
+                "a light has a finite position, a direction that is not 0, an intensity and a radius of at least 0, an angle up to 90 and an inner_angle up to that",
             ));
         }
         let light = match kind {
@@ -296,7 +299,7 @@ impl PyScene {
                 )));
             }
         };
-        let light = light.with_color(color.linear("color")?.truncate());
+        let light = light.with_color(color.linear("color")?.truncate()).with_radius(radius);
         Ok(self.changed().add(Self::light_node(light, position, direction)).index())
     }
 
