@@ -1,13 +1,14 @@
-//! What ambient occlusion costs, and how far it is from 1,024 rays in f64 at every pixel: with rays at every sample, and with
-//! rays that pixels share.
+//! What ambient occlusion and soft shadows cost, and how far they are from 1,024 rays in f64 at every pixel: with rays at
+//! every sample, with rays that pixels share, and soft shadows by maps.
 //!
-//! `cargo bench -p trigon-study --bench occlusion [-- FILE …]` draws the built-in scenes, or models. Each image of 480×300
+//! `cargo bench -p trigon-study --bench occlusion [-- shadows] [FILE …]` draws the built-in scenes, or models. Each image of 480×300
 //! pixels has one sample a pixel and one thread. Times are those of the scene in its own light, all settings in turn.
 //! Errors are root mean squares over all surfaces, of white matt surfaces in light from all around.
 
 #![expect(clippy::print_stdout, reason = "a program that prints what it measures")]
 
 mod scenes;
+mod shadows;
 mod truth;
 
 use std::error::Error;
@@ -36,10 +37,12 @@ const ROUNDS: usize = 15;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Cargo adds an option of its own.
-    let files: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let mut files: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let of_shadows = files.first().is_some_and(|word| word == "shadows");
+    files.drain(..usize::from(of_shadows));
     for subject in scenes::all(&files)? {
         println!("{}: {} triangles", subject.name, subject.triangles().len());
-        report(&subject)?;
+        if of_shadows { shadows::report(&subject)? } else { report(&subject)? }
     }
     Ok(())
 }
@@ -50,7 +53,8 @@ fn report(subject: &Subject) -> Result<(), Box<dyn Error>> {
     let errors = KINDS.iter().map(|&kind| Ok(error(&light(&white, kind)?, &truth)));
     let errors: Vec<f64> = errors.collect::<Result<_, Box<dyn Error>>>()?;
     let kinds: Vec<Option<(u32, RaySampling)>> = std::iter::once(None).chain(KINDS.map(Some)).collect();
-    let costs = costs(subject, &kinds)?;
+    let kinds: Vec<RenderSettings> = kinds.iter().map(|kind| settings(subject, *kind, false)).collect();
+    let costs = costs(subject, &kinds, Effect::AmbientOcclusion)?;
     println!("  without: {:.2} ms", costs[0].milliseconds);
     for (((count, sampling), error), cost) in KINDS.iter().zip(&errors).zip(&costs[1..]) {
         let Cost { milliseconds, rays, .. } = cost;
@@ -71,10 +75,9 @@ struct Cost {
     rays: u64,
 }
 
-fn costs(subject: &Subject, kinds: &[Option<(u32, RaySampling)>]) -> Result<Vec<Cost>, Box<dyn Error>> {
-    let settings = |kind: &Option<_>| settings(subject, *kind, false);
+fn costs(subject: &Subject, kinds: &[RenderSettings], effect: Effect) -> Result<Vec<Cost>, Box<dyn Error>> {
     let mut renderers: Vec<(Renderer, Frame)> =
-        kinds.iter().map(|kind| (Renderer::new(settings(kind)), Frame::default())).collect();
+        kinds.iter().map(|kind| (Renderer::new(kind.clone()), Frame::default())).collect();
     let mut rounds: Vec<Vec<f64>> = Vec::new();
     for round in 0..=ROUNDS {
         let mut times = Vec::new();
@@ -91,7 +94,7 @@ fn costs(subject: &Subject, kinds: &[Option<(u32, RaySampling)>]) -> Result<Vec<
     let of = |kind: usize| {
         let ratio = median(rounds.iter().map(|times| times[kind] / times[0]).collect());
         let milliseconds = median(rounds.iter().map(|times| times[kind]).collect());
-        Cost { milliseconds, ratio, rays: renderers[kind].0.effect_counts(Effect::AmbientOcclusion).rays }
+        Cost { milliseconds, ratio, rays: renderers[kind].0.effect_counts(effect).rays }
     };
     Ok((0..kinds.len()).map(of).collect())
 }
@@ -133,8 +136,10 @@ fn settings(subject: &Subject, kind: Option<(u32, RaySampling)>, is_white: bool)
     settings
 }
 
+/// Of what is a number.
 fn error(light: &[f64], truth: &[Option<f64>]) -> f64 {
     let differences = light.iter().zip(truth).filter_map(|(light, truth)| Some(light - (*truth)?));
+    let differences = differences.filter(|off| !off.is_nan());
     let (sum, count) = differences.fold((0.0, 0.0), |(sum, count), off| (sum + off * off, count + 1.0));
     (sum / count).sqrt()
 }

@@ -38,13 +38,19 @@ impl Subject {
             let plain = Material::from_color(Vec3::ONE);
             *material = Material { shading: Shading::Lambert, double_sided: true, ..plain };
         }
-        let lit = white.scene.nodes().iter().filter(|(_, node)| node.light.is_some());
+        white.in_light(Node::from_light(Light::ambient(1.0)))
+    }
+
+    /// The same in another light alone.
+    pub(crate) fn in_light(&self, light: Node) -> Self {
+        let mut other = self.clone();
+        let lit = other.scene.nodes().iter().filter(|(_, node)| node.light.is_some());
         let lit: Vec<NodeId> = lit.map(|(id, _)| id).collect();
         for id in lit {
-            white.scene.node_mut(id).expect("it was just there").light = None;
+            other.scene.node_mut(id).expect("it was just there").light = None;
         }
-        white.scene.add(Node::from_light(Light::ambient(1.0)));
-        white
+        other.scene.add(light);
+        other
     }
 
     /// All triangles, in the world.

@@ -1,6 +1,7 @@
-//! The truth: 1,024 cosine-weighted rays in f64 at every pixel, through a tree of boxes that shares nothing with the engine's.
+//! The truth: 1,024 rays in f64 at every pixel, cosine-weighted ones or those to a lamp, through a tree of boxes that shares
+//! nothing with the engine's.
 
-use trigon_math::{DVec3, elementary};
+use trigon_math::{DVec2, DVec3, elementary};
 use trigon_scene::Frame;
 
 use crate::scenes::Subject;
@@ -27,6 +28,30 @@ struct Node {
 
 /// The open fraction of the hemisphere of each pixel; `None` where nothing is seen.
 pub(crate) fn openness(surfaces: &Frame, subject: &Subject) -> Vec<Option<f64>> {
+    of_rays(surfaces, subject, subject.distance, |normal, flat| {
+        let (right, up) = normal.any_orthonormal_pair();
+        right * flat.x + up * flat.y + normal * (1.0 - flat.length_squared()).sqrt()
+    })
+}
+
+/// The fraction that each pixel sees of a disc of some radius at a distance of one metre; `None` where nothing is seen.
+pub(crate) fn visibility(
+    surfaces: &Frame,
+    subject: &Subject,
+    towards: DVec3,
+    radius: f64,
+) -> Vec<Option<f64>> {
+    let (right, up) = towards.any_orthonormal_pair();
+    of_rays(surfaces, subject, f64::INFINITY, |_, flat| towards + (right * flat.x + up * flat.y) * radius)
+}
+
+/// The fraction of the rays from each pixel that hit nothing, by its normal and points on a disc of radius 1.
+fn of_rays(
+    surfaces: &Frame,
+    subject: &Subject,
+    far: f64,
+    ray: impl Fn(DVec3, DVec2) -> DVec3,
+) -> Vec<Option<f64>> {
     let boxes = Boxes::new(subject.triangles());
     let off = 1e-5 * subject.scene.bounds().size().length();
     let (eye, along) = (subject.camera.position, subject.camera.orientation * DVec3::NEG_Z);
@@ -39,15 +64,15 @@ pub(crate) fn openness(surfaces: &Frame, subject: &Subject) -> Vec<Option<f64>> 
         let away = if is_parallel { along } else { position - eye };
         let normal = if normal.dot(away) > 0.0 { -normal } else { normal };
         let mut random = number as u64 | 1 << 40;
-        let rays = (0..SIDE * SIDE).map(|ray| direction(normal, ray, &mut random));
-        let leaving = rays.filter(|&ray| !boxes.stop(position + normal * off, ray, subject.distance));
+        let rays = (0..SIDE * SIDE).map(|number| ray(normal, on_disc(number, &mut random)));
+        let leaving = rays.filter(|&ray| !boxes.stop(position + normal * off, ray, far));
         Some(leaving.count() as f64 / f64::from(SIDE * SIDE))
     };
     points.enumerate().map(of).collect()
 }
 
-/// One of the rays, somewhere in its cell of a grid over the disc.
-fn direction(normal: DVec3, ray: u32, random: &mut u64) -> DVec3 {
+/// A point somewhere in its cell of a grid over the disc.
+fn on_disc(number: u32, random: &mut u64) -> DVec2 {
     let mut fraction = || {
         // Xorshift (G. Marsaglia, 2003).
         *random ^= *random << 13;
@@ -56,11 +81,9 @@ fn direction(normal: DVec3, ray: u32, random: &mut u64) -> DVec3 {
         (*random >> 11) as f64 / (1_u64 << 53) as f64
     };
     let [square, turn] =
-        [ray % SIDE, ray / SIDE].map(|cell| (f64::from(cell) + fraction()) / f64::from(SIDE));
-    let (right, up) = normal.any_orthonormal_pair();
+        [number % SIDE, number / SIDE].map(|cell| (f64::from(cell) + fraction()) / f64::from(SIDE));
     let angle = turn * std::f64::consts::TAU;
-    let (sine, cosine) = (elementary::sin(angle), elementary::cos(angle));
-    (right * cosine + up * sine) * square.sqrt() + normal * (1.0 - square).sqrt()
+    DVec2::new(elementary::cos(angle), elementary::sin(angle)) * square.sqrt()
 }
 
 impl Boxes {
