@@ -78,6 +78,25 @@ with 1,024 rays in f64 at every pixel. Errors are root mean squares, relative to
 In the exhibition 45,168 rays and the boxes in which they start take about 7 of the 9 ms that 32 shared rays add; the rest is the second pass.
 What remains of the error lies where occlusion is narrower than the five pixels over which the mean is taken.
 
+## Soft shadows
+
+A lamp with a radius casts a soft shadow. Lights have one (`Light::radius`, *Radius* in the editor), and `--light-radius` gives it to lamps
+that have none, since glTF's have none. A point or spot light is a sphere of so many metres; a directional light is a disc of so many metres at a
+distance of one: 0.00465 for the sun. Where no lamp has a radius nothing of this is prepared, and no byte changes. The light itself still comes
+from the middle of the lamp: only how much of it is visible is averaged over its disc.
+
+- **By rays** (`--shadows=rays`). `--shadow-rays` of them go to points all over the disc: at every sample, or shared by pixels
+  (`--shadow-sampling=shared`, the preset `high`) in the same way as [those of ambient occlusion](#ambient-occlusion-that-pixels-share), for each of up to
+  16 lamps. Where the shared mean changes too fast for its reach of five pixels, it would blur an edge, and the samples cast a quarter of
+  the rays themselves. So sharp shadows stay sharp, and outside of penumbras all or none of the rays arrive.
+- **By maps** (`--shadows=maps`), as percentage-closer soft shadows: 32 texels are searched for casters, and as many compared over a disc as
+  wide as the penumbra of the caster that is nearest to the surface. A pyramid of the nearest depths bounds the search, so that surfaces with nothing before them
+  pay a few look-ups. Only casters within the cone from the point to the lamp count, and texels are compared with the
+  plane of the surface. Behind a straight edge that is exact; behind casters at several distances, each of which hides a part of the
+  lamp, it is an estimate.
+
+The image depends on nothing but the scene, the camera and the settings.
+
 ## What metals reflect
 
 Lit by lamps alone, a metal is black outside its highlights. Metals therefore reflect a studio if the scene has no

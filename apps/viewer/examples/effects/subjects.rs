@@ -10,8 +10,9 @@ use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_mesh::{Attributes, Deltas, Mesh, MorphTarget};
 use trigon_scene::{
     AlphaMode, AmbientOcclusion, Background, Effect, Environment, Exposure, Fog, Light, Lighting, Material,
-    MetallicRoughness, Node, NodeId, NormalMap, Occlusion, Outline, RenderSettings, Scene, Shading, Shadows,
-    SightRays, Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
+    MetallicRoughness, Node, NodeId, NormalMap, Occlusion, Outline, RaySampling, RenderSettings, Scene,
+    Shading, Shadows, SightRays, Sky, SoftShadows, Style, Texture, TextureBinding, TextureFormat,
+    ToneMapping, Transform, showcase,
 };
 
 /// A scene and how it is looked at.
@@ -80,6 +81,11 @@ pub(crate) fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         asked(Effect::MetalStudio, &|settings| settings.lighting = Lighting::Studio),
         asked(Effect::ShadowMaps, &|settings| settings.effects.shadows = Shadows::Maps { resolution: 2048 }),
         asked(Effect::ShadowRays, &|settings| settings.effects.shadows = Shadows::Rays),
+        asked(Effect::SoftShadows, &|settings| {
+            settings.effects.shadows = Shadows::Rays;
+            settings.effects.soft_shadows =
+                SoftShadows { radius: 0.1, rays: 64, sampling: RaySampling::Shared };
+        }),
         asked(Effect::AmbientOcclusion, &|settings| {
             settings.effects.ambient_occlusion = Some(AmbientOcclusion::new(16, 1.0));
         }),
