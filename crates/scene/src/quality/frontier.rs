@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::plot::{BLUE, GREY, LegendEntry, LegendMark, ORANGE, Plot, PlotDot, PlotLine, best_of};
 use super::{Preset, Quality};
-use crate::effect_settings::{OcclusionSampling, Shadows};
+use crate::effect_settings::{RaySampling, Shadows};
 use crate::settings::ShadingModel;
 
 /// The times of several frames.
@@ -150,20 +150,23 @@ impl Frontier {
     pub fn to_csv(&self) -> String {
         let mut text =
             "name,preset,samples per axis,samples,lighting,shadows,occlusion rays,occlusion sampling,\
-            glass bounces,ms low,ms median,ms high,frames,RMSE against reference,standing\n"
+            soft shadow rays,soft shadow sampling,glass bounces,ms low,ms median,ms high,frames,RMSE against reference,standing\n"
                 .to_owned();
         let mut dots: Vec<&FrontierDot> = self.dots.iter().collect();
         dots.sort_by_key(|dot| dot.time.median);
         for dot in dots {
-            let Quality { samples_per_axis, samples, occlusion_rays, glass_bounces, .. } = dot.quality;
-            let [lighting, shadows, sampling] = words(&dot.quality);
+            let Quality { samples_per_axis, samples, occlusion_rays, shadow_rays, glass_bounces, .. } =
+                dot.quality;
+            let [lighting, shadows] = words(&dot.quality);
+            let occlusion = sampling(occlusion_rays, dot.quality.occlusion_sampling);
+            let shadow = sampling(shadow_rays, dot.quality.shadow_sampling);
             let [low, median, high] = dot.milliseconds();
             let preset = dot.preset.map_or("", Preset::name);
             // A string takes any text.
             let _ = writeln!(
                 text,
-                "\"{}\",{preset},{samples_per_axis},{samples},{lighting},{shadows},{occlusion_rays},{sampling},\
-                 {glass_bounces},{low},{median},{high},{},{},{}",
+                "\"{}\",{preset},{samples_per_axis},{samples},{lighting},{shadows},{occlusion_rays},{occlusion},\
+                 {shadow_rays},{shadow},{glass_bounces},{low},{median},{high},{},{},{}",
                 dot.name(),
                 dot.frames,
                 dot.error,
@@ -234,8 +237,8 @@ fn plot_dot(dot: &FrontierDot, is_choice: bool) -> PlotDot {
     }
 }
 
-/// Lighting, shadows and occlusion sampling, as tables have them.
-fn words(quality: &Quality) -> [String; 3] {
+/// Lighting and shadows, as tables have them.
+fn words(quality: &Quality) -> [String; 2] {
     let lighting = match quality.shading {
         ShadingModel::Flat => "per triangle",
         ShadingModel::Gouraud => "per vertex",
@@ -246,12 +249,16 @@ fn words(quality: &Quality) -> [String; 3] {
         Shadows::Maps { resolution } => format!("maps of {resolution} texels"),
         Shadows::Rays => "rays".to_owned(),
     };
-    let sampling = match (quality.occlusion_rays, quality.occlusion_sampling) {
+    [lighting.to_owned(), shadows]
+}
+
+/// Where some rays start, as tables have it.
+fn sampling(rays: u32, sampling: RaySampling) -> &'static str {
+    match (rays, sampling) {
         (0, _) => "",
-        (_, OcclusionSampling::Full) => "full",
-        (_, OcclusionSampling::Shared) => "shared",
-    };
-    [lighting.to_owned(), shadows, sampling.to_owned()]
+        (_, RaySampling::Full) => "full",
+        (_, RaySampling::Shared) => "shared",
+    }
 }
 
 #[cfg(test)]
@@ -317,8 +324,8 @@ mod tests {
         let frontier = frontier(vec![preset, dot(0, [2, 3, 4], 0.5)]);
         let csv = frontier.to_csv();
         let lines: Vec<&str> = csv.lines().collect();
-        assert_eq!(lines[2], "\"reference\",reference,4,16,per pixel,rays,64,full,8,4,5,6,5,0,best");
-        assert!(lines[1].starts_with("\"1×1×1\",,1,1,per pixel,maps of 2048 texels,0,,4,2,3,4,"), "{csv}");
+        assert_eq!(lines[2], "\"reference\",reference,4,16,per pixel,rays,64,full,64,full,8,4,5,6,5,0,best");
+        assert!(lines[1].starts_with("\"1×1×1\",,1,1,per pixel,maps of 2048 texels,0,,0,,4,2,3,4,"), "{csv}");
         let columns = |line: &str| line.split(',').count();
         assert!(lines.iter().all(|line| columns(line) == columns(lines[0])), "{csv}");
         let svg = frontier.plot("a <model>", None).to_svg();
