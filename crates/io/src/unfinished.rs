@@ -121,7 +121,7 @@ type Identity = [u64; 2];
 
 /// The path without links: a second name of the same file is not recognized.
 #[cfg(not(unix))]
-type Identity = std::path::PathBuf;
+type Identity = PathBuf;
 
 impl FileIdentity {
     /// Of the file that a path leads to.
@@ -142,7 +142,7 @@ fn identity(path: &Path) -> io::Result<Identity> {
 
 #[cfg(not(unix))]
 fn identity(path: &Path) -> io::Result<Identity> {
-    std::fs::canonicalize(path)
+    fs::canonicalize(path)
 }
 
 #[cfg(test)]

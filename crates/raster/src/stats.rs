@@ -132,12 +132,13 @@ impl AddAssign for StageTimes {
     }
 }
 
-/// Measures laps, or nothing.
+/// Measures laps, or nothing: WebAssembly alone has no clock.
 pub(crate) struct Clock(Option<Instant>);
 
 impl Clock {
     pub(crate) fn new(is_timed: bool) -> Self {
-        Self(is_timed.then(Instant::now))
+        let has_clock = !cfg!(all(target_family = "wasm", target_os = "unknown"));
+        Self((is_timed && has_clock).then(Instant::now))
     }
 
     /// The time since the last lap.

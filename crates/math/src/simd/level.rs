@@ -6,11 +6,17 @@
 use fearless_simd::Level;
 
 /// The level without vectors.
-#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(
+    feature = "scalar",
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+))]
 pub type Scalar = fearless_simd::Fallback;
 
 /// The level without vectors, which is not there.
-#[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+#[cfg(not(any(
+    feature = "scalar",
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+)))]
 #[derive(Clone, Copy, Debug)]
 pub enum Scalar {}
 
@@ -31,6 +37,9 @@ pub enum Token {
     /// aarch64's own 128 bits.
     #[cfg(target_arch = "aarch64")]
     Neon(fearless_simd::aarch64::Neon),
+    /// WebAssembly's 128 bits, in modules that are compiled for them.
+    #[cfg(target_feature = "simd128")]
+    Simd128(fearless_simd::wasm32::WasmSimd128),
 }
 
 impl Token {
@@ -45,11 +54,19 @@ impl Token {
         ];
         #[cfg(target_arch = "aarch64")]
         let vectors = [level.as_neon().map(Self::Neon)];
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+        #[cfg(target_feature = "simd128")]
+        let vectors = [level.as_wasm_simd128().map(Self::Simd128)];
+        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")))]
         let vectors: [Option<Self>; 0] = [];
-        #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+        #[cfg(any(
+            feature = "scalar",
+            not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+        ))]
         let scalar = [Self::Scalar(Scalar::new())];
-        #[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+        #[cfg(not(any(
+            feature = "scalar",
+            not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+        )))]
         let scalar = [];
         let _ = level;
         scalar.into_iter().chain(vectors.into_iter().flatten())
@@ -78,12 +95,17 @@ macro_rules! at_level {
             $crate::simd::Token::Avx512($simd) => $crate::at_token!($simd => $body),
             #[cfg(target_arch = "aarch64")]
             $crate::simd::Token::Neon($simd) => $crate::at_token!($simd => $body),
+            #[cfg(target_feature = "simd128")]
+            $crate::simd::Token::Simd128($simd) => $crate::at_token!($simd => $body),
         }
     }};
 }
 
 /// Runs an expression without vectors.
-#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(any(
+    feature = "scalar",
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+))]
 #[doc(hidden)]
 #[macro_export]
 macro_rules! at_scalar {
@@ -93,7 +115,10 @@ macro_rules! at_scalar {
 }
 
 /// Compiles nothing for a level that is not there.
-#[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+#[cfg(not(any(
+    feature = "scalar",
+    not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))
+)))]
 #[doc(hidden)]
 #[macro_export]
 macro_rules! at_scalar {

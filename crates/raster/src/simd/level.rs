@@ -1,6 +1,5 @@
 //! Which vector instructions a frame is drawn with.
 
-use fearless_simd::Level;
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -21,6 +20,8 @@ pub enum SimdLevel {
     Avx512,
     /// aarch64's own 128 bits.
     Neon,
+    /// WebAssembly's 128 bits. A module is compiled for them or not: it has this level or [`Scalar`](Self::Scalar).
+    Simd128,
 }
 
 /// A level by its name failed.
@@ -28,7 +29,7 @@ pub enum SimdLevel {
 #[non_exhaustive]
 pub enum SimdLevelError {
     /// There is no level of that name.
-    #[error("no such SIMD level: it is one of scalar, sse2, avx2, avx512 and neon")]
+    #[error("no such SIMD level: it is one of scalar, sse2, avx2, avx512, neon and simd128")]
     Unknown,
     /// This processor lacks the instructions, or the crate was built without the
     /// feature `scalar`.
@@ -41,7 +42,8 @@ pub enum SimdLevelError {
 
 impl SimdLevel {
     /// All levels, narrow to wide.
-    pub const ALL: [Self; 5] = [Self::Scalar, Self::Sse2, Self::Avx2, Self::Avx512, Self::Neon];
+    pub const ALL: [Self; 6] =
+        [Self::Scalar, Self::Sse2, Self::Avx2, Self::Avx512, Self::Neon, Self::Simd128];
 
     /// The best that this processor has.
     #[must_use]
@@ -58,23 +60,22 @@ impl SimdLevel {
 
     /// The proof that the processor has it.
     pub(crate) fn token(self) -> Option<Token> {
-        match self {
-            #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
-            Self::Scalar => Some(Token::Scalar(trigon_math::simd::Scalar::new())),
-            #[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
-            Self::Scalar => None,
+        Token::all().find(|token| Self::of(*token) == self)
+    }
+
+    fn of(token: Token) -> Self {
+        match token {
+            Token::Scalar(_) => Self::Scalar,
             #[cfg(target_arch = "x86_64")]
-            Self::Sse2 => Level::new().as_sse2().map(Token::Sse2),
+            Token::Sse2(_) => Self::Sse2,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => Level::new().as_avx2().map(Token::Avx2),
+            Token::Avx2(_) => Self::Avx2,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => Level::new().as_avx512().map(Token::Avx512),
-            #[cfg(not(target_arch = "x86_64"))]
-            Self::Sse2 | Self::Avx2 | Self::Avx512 => None,
+            Token::Avx512(_) => Self::Avx512,
             #[cfg(target_arch = "aarch64")]
-            Self::Neon => Level::new().as_neon().map(Token::Neon),
-            #[cfg(not(target_arch = "aarch64"))]
-            Self::Neon => None,
+            Token::Neon(_) => Self::Neon,
+            #[cfg(target_feature = "simd128")]
+            Token::Simd128(_) => Self::Simd128,
         }
     }
 }
@@ -87,6 +88,7 @@ impl fmt::Display for SimdLevel {
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
             Self::Neon => "neon",
+            Self::Simd128 => "simd128",
         })
     }
 }
