@@ -5,8 +5,7 @@
 //! resolved inside the model's folder, and the result, with links followed, must still lie in it
 //! and be a regular file; reading stops at a limit.
 
-use std::collections::hash_map::Entry;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -15,6 +14,7 @@ use super::options::Limits;
 use super::refusal::is_lfs_pointer;
 use crate::error::LoadError;
 use crate::refusal::{Refusal, relative_path};
+use crate::root::Root;
 
 /// How exactly a name must match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,8 +46,7 @@ pub(crate) fn to_the_end(_: f32) -> Result<(), Refusal> {
 /// A folder to read from, and a record of what was read.
 #[derive(Debug)]
 pub(crate) struct Folder {
-    /// Canonical; `None` if the model came from a stream.
-    root: Option<PathBuf>,
+    root: Root,
     /// The same folder as the caller named it, for messages and lists.
     shown: PathBuf,
     limits: Limits,
@@ -64,16 +63,22 @@ impl Folder {
     pub(crate) fn of(model: &Path, limits: &Limits) -> io::Result<Self> {
         let parent = model.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         Ok(Self {
-            root: Some(fs::canonicalize(parent)?),
+            root: Root::Disk(fs::canonicalize(parent)?),
             shown: model.parent().unwrap_or(parent).to_owned(),
             ..Self::none(limits)
         })
     }
 
+    /// The folder that contains a model, among files in memory by their paths.
+    pub(crate) fn in_memory(model: &Path, files: BTreeMap<String, Vec<u8>>, limits: &Limits) -> Self {
+        let shown = model.parent().unwrap_or(Path::new("")).to_owned();
+        Self { root: Root::in_memory(&shown, files), shown, ..Self::none(limits) }
+    }
+
     /// No folder: every name is refused.
     pub(crate) fn none(limits: &Limits) -> Self {
         Self {
-            root: None,
+            root: Root::Nowhere,
             shown: PathBuf::new(),
             limits: limits.clone(),
             total: 0,
@@ -92,6 +97,13 @@ impl Folder {
     /// fraction that has been read, 0 to 1, and may cancel.
     pub(crate) fn read_model(&mut self, path: &Path, follow: Follow<'_>) -> Result<Vec<u8>, LoadError> {
         let bytes = self.read_regular(path, follow).map_err(|refusal| refusal.of_model(path))?;
+        self.note(path.to_owned());
+        Ok(bytes)
+    }
+
+    /// The bytes of the file that the user named, from memory.
+    pub(crate) fn accepted_model(&mut self, path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, LoadError> {
+        let bytes = self.accepted(bytes).map_err(|refusal| refusal.of_model(path))?;
         self.note(path.to_owned());
         Ok(bytes)
     }
@@ -153,14 +165,23 @@ impl Folder {
     }
 
     fn read_exact(&mut self, within: &Path, name: &str) -> Result<Found, Refusal> {
-        let root = self.root.as_ref().ok_or(Refusal::NoFolder)?;
-        let relative = within.join(relative_path(name)?);
-        let path = fs::canonicalize(root.join(&relative)).map_err(Refusal::from_io)?;
-        let inside = path.strip_prefix(root).map_err(|_| Refusal::Outside)?;
-        let shown = self.shown.join(inside);
-        let bytes = self.read_regular(&path, &to_the_end)?;
-        self.note(shown.clone());
-        Ok(Found { bytes, path: shown, respelled: false })
+        let relative = |name| Ok(within.join(relative_path(name)?));
+        let (bytes, path) = match &self.root {
+            Root::Nowhere => return Err(Refusal::NoFolder),
+            Root::Disk(root) => {
+                let path = fs::canonicalize(root.join(relative(name)?)).map_err(Refusal::from_io)?;
+                let inside = path.strip_prefix(root).map_err(|_| Refusal::Outside)?.to_owned();
+                (self.read_regular(&path, &to_the_end)?, inside)
+            }
+            Root::Memory(files) => {
+                let path = relative(name)?;
+                let bytes = files.get(&path).ok_or(Refusal::Missing)?.clone();
+                (self.accepted(bytes)?, path)
+            }
+        };
+        let path = self.shown.join(path);
+        self.note(path.clone());
+        Ok(Found { bytes, path, respelled: false })
     }
 
     fn read_regular(&mut self, path: &Path, follow: Follow<'_>) -> Result<Vec<u8>, Refusal> {
@@ -170,16 +191,27 @@ impl Folder {
         }
         let file = File::open(path).map_err(Refusal::from_io)?;
         let length = file.metadata().map_err(Refusal::Read)?.len();
-        let limit = self.limits.file_bytes.min(self.limits.total_bytes.saturating_sub(self.total));
+        let limit = self.limit();
         if length > limit {
             return Err(Refusal::TooLarge(length, limit));
         }
         // One more than the limit, to notice a file that grew.
         let bytes = read_in_pieces(file.take(limit.saturating_add(1)), length, follow)?;
-        if bytes.len() as u64 > limit {
-            return Err(Refusal::TooLarge(bytes.len() as u64, limit));
+        self.accepted(bytes)
+    }
+
+    /// Bytes that the next file may have.
+    fn limit(&self) -> u64 {
+        self.limits.file_bytes.min(self.limits.total_bytes.saturating_sub(self.total))
+    }
+
+    /// Counts the bytes of a file, unless they are too many, or are not the file itself.
+    fn accepted(&mut self, bytes: Vec<u8>) -> Result<Vec<u8>, Refusal> {
+        let (length, limit) = (bytes.len() as u64, self.limit());
+        if length > limit {
+            return Err(Refusal::TooLarge(length, limit));
         }
-        self.total += bytes.len() as u64;
+        self.total += length;
         if is_lfs_pointer(&bytes) { Err(Refusal::LfsPointer) } else { Ok(bytes) }
     }
 
@@ -209,14 +241,11 @@ impl Folder {
     /// The path below the root that differs from the name only in the case of
     /// its letters.
     fn other_case(&mut self, within: &Path, name: &str) -> Option<String> {
-        let root = self.root.clone()?;
         let mut found = within.to_owned();
         for part in relative_path(name).ok()?.components() {
             let part = part.as_os_str().to_str()?.to_lowercase();
-            let listing = match self.listings.entry(found.clone()) {
-                Entry::Occupied(known) => known.into_mut(),
-                Entry::Vacant(new) => new.insert(list_folder(&root.join(&found))),
-            };
+            let listing =
+                self.listings.entry(found.clone()).or_insert_with_key(|folder| self.root.names(folder));
             found.push(listing.get(&part)?);
         }
         Some(found.to_str()?.to_owned())
@@ -231,17 +260,6 @@ fn read_in_pieces(mut from: impl Read, length: u64, follow: Follow<'_>) -> Resul
         follow(bytes.len() as f32 / length.max(1) as f32)?;
     }
     Ok(bytes)
-}
-
-/// The names in a folder by their lower case; of several with the same, the first in alphabetical
-/// order. Empty if it cannot be listed.
-fn list_folder(folder: &Path) -> HashMap<String, String> {
-    // A folder with more entries than this is not searched to its end.
-    const MOST_ENTRIES: usize = 100_000;
-    let entries = fs::read_dir(folder).into_iter().flatten().take(MOST_ENTRIES).flatten();
-    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
-    names.sort_unstable_by(|a, b| b.cmp(a));
-    names.into_iter().map(|name| (name.to_lowercase(), name)).collect()
 }
 
 #[cfg(test)]

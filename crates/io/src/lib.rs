@@ -57,6 +57,7 @@ mod polygons;
 mod rebase;
 mod refusal;
 mod rgba_image;
+mod root;
 mod rows;
 mod sequence;
 mod texture_request;
@@ -78,7 +79,7 @@ pub use format::{Format, Reader, Writer};
 pub use formats::gltf::{encode_glb, write_glb};
 pub use formats::{export, readers, writers};
 pub use gltf_source::GltfSource;
-pub use load::{Loaded, load, load_from_slice};
+pub use load::{Loaded, load, load_from_files, load_from_slice};
 pub use native_document::{NativeDocument, NativeFile};
 pub use options::{Limits, LoadOptions, LoadStage, Progress, ProgressHook, SceneChoice};
 pub use outputs::{

@@ -88,6 +88,37 @@ pub fn load_from_slice(
     import_on(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
 }
 
+/// Loads a model from files in memory, such as those that were dropped on a web page. `files` holds them by their
+/// paths from a common folder, with `/` between names; `model` is one of these paths. As on the disk, the model finds the
+/// files in its own folder and below it, and no others.
+///
+/// ```
+/// use trigon_io::{LoadOptions, load_from_files};
+///
+/// let obj = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+/// let files = [("models/a.obj", &obj[..]), ("models/a.mtl", b"newmtl red\nKd 1 0 0\n")];
+/// let files = files.into_iter().map(|(path, bytes)| (path.to_owned(), bytes.to_vec())).collect();
+/// let loaded = load_from_files("models/a.obj", files, &LoadOptions::default())?;
+/// assert!(loaded.warnings.is_empty());
+/// assert_eq!(loaded.files.len(), 2);
+/// # Ok::<(), trigon_io::LoadError>(())
+/// ```
+///
+/// # Errors
+/// As [`load`]; there is no file of the model's path.
+pub fn load_from_files(
+    model: &str,
+    mut files: BTreeMap<String, Vec<u8>>,
+    options: &LoadOptions<'_>,
+) -> Result<Loaded, LoadError> {
+    let path = Path::new(model);
+    let bytes = files.remove(model).ok_or_else(|| Refusal::Missing.of_model(path))?;
+    let mut folder = Folder::in_memory(path, files, &options.limits);
+    let bytes = folder.accepted_model(path, bytes)?;
+    options.report(path, LoadStage::Reading, 1.0)?;
+    import_on(path, Cow::Owned(bytes), folder, options)
+}
+
 /// Imports with the number of threads in the options.
 fn import_on(
     path: &Path,

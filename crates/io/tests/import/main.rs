@@ -7,6 +7,7 @@ mod cases;
 mod draco;
 mod export;
 mod features;
+mod files;
 mod gltf;
 mod gltf_crate;
 mod gltf_oracle;
