@@ -3,6 +3,7 @@
 
 use crate::coverage_support::{SIDE, Values, clip_position, count, draw, pixel};
 use crate::effort::cases;
+use crate::random::Random;
 use proptest::prelude::*;
 use trigon_math::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
@@ -280,17 +281,4 @@ pub(crate) fn grid_triangles(cells: u32, random: &mut Random) -> Vec<[u32; 3]> {
         }
     }
     triangles
-}
-
-/// D. Knuth's generator for 64 bits (The Art of Computer Programming, 3.3.4). It is not `trigon_math::SplitMix64`, because these
-/// tests judge the engine and use nothing of it but what they judge; the manifest's hashes follow from its numbers.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// A number from `-reach` to `reach`.
-    pub(crate) fn within(&mut self, reach: i32) -> i32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let span = 2 * reach as u64 + 1;
-        ((self.0 >> 33) % span) as i32 - reach
-    }
 }

@@ -10,6 +10,8 @@ use trigon_raster::{
 };
 use trigon_study::oracle::GridPoint;
 
+pub(crate) use crate::samples::Samples;
+
 /// Width and height of the images: a power of two, so that points of the
 /// sub-pixel grid are exact in clip space.
 pub(crate) const SIDE: i32 = 64;
@@ -108,18 +110,7 @@ impl Pipeline for NumberedTriangles {
     }
 }
 
-/// How many samples a target has.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Samples {
-    /// By supersampling, along each side of a pixel.
-    pub(crate) per_axis: u32,
-    /// By multisampling, at the standard positions.
-    pub(crate) per_pixel: u32,
-}
-
 impl Samples {
-    pub(crate) const ONE: Self = Self { per_axis: 1, per_pixel: 1 };
-
     /// Either kind, both together, or none.
     pub(crate) fn any() -> impl Strategy<Value = Self> {
         let per_pixel = prop_oneof![Just(1_u32), Just(2), Just(4), Just(8), Just(16)];
@@ -128,13 +119,6 @@ impl Samples {
             1 => (2..5_u32).prop_map(|per_axis| Self { per_axis, per_pixel: 1 }),
             1 => per_pixel.prop_map(|per_pixel| Self { per_axis: 2, per_pixel }),
         ]
-    }
-
-    /// A target with these samples.
-    pub(crate) fn target(self, [width, height]: [u32; 2], outputs: &[Output]) -> Target<'static> {
-        let target = Target::new(width, height, outputs).expect("the size is in range");
-        let target = target.with_samples_per_axis(self.per_axis).expect("the number is in range");
-        target.with_samples(self.per_pixel).expect("a standard pattern")
     }
 }
 

@@ -1,10 +1,10 @@
 //! Who is in front: exact ties, surfaces that cross, and how near depth comes to
 //! exact arithmetic. Hard cases 24 to 26.
 
-use crate::coverage::Random;
 use crate::coverage_support::{SIDE, Samples, Values, clip_position, draw, pixel, rasterizer};
 use crate::depth_plane;
 use crate::effort::cases;
+use crate::random::Random;
 use proptest::prelude::*;
 use trigon_raster::{
     BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Stats, TargetImages,

@@ -1,9 +1,10 @@
 //! Several samples in a pixel, each at its standard place, shaded together: which
 //! samples a triangle covers, against exact integers, and what colour they get.
 
-use crate::coverage::{Random, fan_triangles, grid_triangles, triangle};
+use crate::coverage::{fan_triangles, grid_triangles, triangle};
 use crate::coverage_support::{SIDE, Samples, Values, clip_position, pixel, rasterizer};
 use crate::effort::cases;
+use crate::random::Random;
 use proptest::prelude::*;
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{

@@ -7,9 +7,9 @@
 //! triangle, or those of one slope that all of its copies have, so that no depth has to be
 //! computed to know which are equal.
 
-use crate::coverage::Random;
 use crate::coverage_support::{NumberedTriangles, clip_position_on, levels, rasterizer};
 use crate::effort::cases;
+use crate::random::Random;
 use proptest::prelude::*;
 use std::cmp::Reverse;
 use std::num::NonZeroUsize;

@@ -1,11 +1,12 @@
 //! Who has a sample where it is hardest to say: on edges, among very many
 //! triangles, and where corners lie between the steps of the grid or nowhere.
 
-use crate::coverage::{Random, grid_triangles};
+use crate::coverage::grid_triangles;
 use crate::coverage_support::{
     SIDE, Values, clip_position, clip_position_on, count, draw, draw_sized, pixel,
 };
 use crate::effort::cases;
+use crate::random::Random;
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{BlendMode, Culling, Draw, ExecuteSettings, Pass};

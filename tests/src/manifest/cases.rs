@@ -1,8 +1,8 @@
 //! Which images the manifest holds.
 
 use super::layouts::Layout;
-use crate::coverage_support::Samples;
 use crate::programs::{Flat, Lanes, Scalar, Textured, Vertices};
+use crate::samples::Samples;
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
     Background, BlendMode, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Output, Pass, PointShape,

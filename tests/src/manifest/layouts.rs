@@ -1,7 +1,7 @@
 //! Where the manifest's triangles lie.
 
-use crate::coverage::Random;
 use crate::programs::Vertices;
+use crate::random::Random;
 use trigon_math::{Mat4, Vec3, Vec4, elementary};
 use trigon_math::{look_at_mat4, perspective_infinite_reverse};
 
