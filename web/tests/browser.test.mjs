@@ -1,0 +1,200 @@
+// The page in Chromium.
+
+import assert from 'node:assert/strict';
+import { mkdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import test, { after, before } from 'node:test';
+import { chromium } from 'playwright-core';
+
+import { manifest } from './expected.mjs';
+import { built, corpus, levels, root, site } from './paths.mjs';
+import { serve } from './serve.mjs';
+
+const shots = join(built, 'screenshots');
+mkdirSync(shots, { recursive: true });
+const cube = join(corpus, 'ok/cube_textured.glb');
+const mug = join(root, 'crates/study/models/mug.obj');
+
+let browser;
+let address;
+let close;
+
+before(async () => {
+  [address, close] = await serve(site, built, join(root, 'web/tests'), root);
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--headless=new'],
+  });
+});
+after(async () => {
+  await browser?.close();
+  close?.();
+});
+
+async function open(size = { width: 1200, height: 760 }) {
+  const page = await browser.newPage({ viewport: size });
+  page.on('pageerror', (error) => assert.fail(error));
+  await page.goto(address);
+  return page;
+}
+
+/** Drops files on the page, as the system does. */
+async function drop(page, ...paths) {
+  const files = paths.map((path) => [path.split('/').at(-1), readFileSync(path).toString('base64')]);
+  await page.evaluate((files) => {
+    const transfer = new DataTransfer();
+    for (const [name, text] of files) {
+      transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+    }
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, files);
+}
+
+const settled = (page) => page.evaluate(() => document.querySelector('trigon-viewer').settled());
+/** A hash of the image that is shown. */
+const shown = (page) =>
+  page.evaluate(async () => {
+    await document.querySelector('trigon-viewer').settled();
+    const canvas = document.querySelector('trigon-viewer').shadowRoot.querySelector('canvas');
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const digest = await crypto.subtle.digest('SHA-256', data);
+    return [...new Uint8Array(digest)].join(' ');
+  });
+
+async function openWith(...paths) {
+  const page = await open();
+  await drop(page, ...paths);
+  await page.waitForFunction(() => !document.body.classList.contains('empty'));
+  await settled(page);
+  return page;
+}
+
+for (const level of levels) {
+  test(`the manifest's pictures hash to the same at ${level}`, async () => {
+    const page = await open();
+    const lines = await page.evaluate(async (level) => {
+      const module = await import(`/${level}/trigon_web_manifest.js`);
+      await module.default();
+      return module.lines();
+    }, level);
+    assert.deepEqual(lines.sort(), manifest());
+    await page.close();
+  });
+}
+
+test('an empty page says what to do', async () => {
+  const page = await open();
+  await page.getByText('Drop a model here').waitFor();
+  await page.screenshot({ path: join(shots, 'empty.png') });
+  await page.close();
+});
+
+test('a dropped model is shown, and orbits with the mouse and the keys', async () => {
+  const page = await openWith(cube);
+  assert.match(await page.locator('#facts').innerText(), /triangles\s+12\b/);
+  const first = await shown(page);
+  await page.screenshot({ path: join(shots, 'cube.png') });
+  await page.mouse.move(450, 400);
+  await page.mouse.down();
+  await page.mouse.move(600, 430, { steps: 5 });
+  await page.mouse.up();
+  const turned = await shown(page);
+  assert.notEqual(turned, first);
+  await page.keyboard.press('ArrowLeft');
+  const byKey = await shown(page);
+  assert.notEqual(byKey, turned);
+  await page.mouse.wheel(0, 300);
+  assert.notEqual(await shown(page), byKey);
+  await page.keyboard.press('Enter');
+  assert.equal(await shown(page), first, 'the view is reset');
+  await page.close();
+});
+
+test('a click explains a pixel', async () => {
+  const page = await openWith(mug);
+  await page.mouse.click(450, 400);
+  await page.locator('#pixel-text').waitFor();
+  assert.match(await page.locator('#pixel-name').innerText(), /face/);
+  assert.match(await page.locator('#pixel-text').innerText(), /edge/);
+  await page.screenshot({ path: join(shots, 'pixel.png') });
+  await page.close();
+});
+
+test('an error names the file and stays until it is dismissed', async () => {
+  const page = await openWith(cube);
+  const before = await shown(page);
+  await drop(page, join(corpus, 'glb/truncated_at_00100.glb'));
+  const error = page.getByRole('alert');
+  await error.waitFor();
+  assert.match(await error.innerText(), /truncated_at_00100\.glb/);
+  await page.waitForTimeout(1000);
+  await page.screenshot({ path: join(shots, 'error.png') });
+  assert.ok(await error.isVisible());
+  await error.getByRole('button').click();
+  assert.equal(await page.getByRole('alert').count(), 0);
+  await drop(page, cube);
+  await page.waitForTimeout(100);
+  assert.equal(await shown(page), before, 'the next model is shown');
+  await page.close();
+});
+
+test('outputs and surfaces change the image', async () => {
+  const page = await openWith(mug);
+  const seen = new Set([await shown(page)]);
+  for (const [select, value] of [['#display', 'depth'], ['#display', 'normal'], ['#surface', 'hidden-line']]) {
+    await page.locator(select).selectOption(value);
+    seen.add(await shown(page));
+    await page.screenshot({ path: join(shots, `${value}.png`) });
+  }
+  assert.equal(seen.size, 4);
+  await page.close();
+});
+
+test('the page fits a telephone', async () => {
+  const page = await open({ width: 390, height: 760 });
+  await drop(page, mug);
+  await page.waitForFunction(() => !document.body.classList.contains('empty'));
+  await settled(page);
+  await page.screenshot({ path: join(shots, 'telephone.png') });
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await page.close();
+});
+
+test('attributes of an element change its image', async () => {
+  const page = await browser.newPage({ viewport: { width: 600, height: 400 } });
+  await page.goto(`${address}elements.html`);
+  const seen = new Set([await shown(page)]);
+  const changes = {
+    background: 'transparent', exposure: '0.5', 'camera-orbit': '120deg 60deg 105%', 'field-of-view': '60deg', display: 'matcap',
+  };
+  for (const [name, value] of Object.entries(changes)) {
+    await page.evaluate(([name, value]) => document.querySelector('trigon-viewer').setAttribute(name, value), [name, value]);
+    seen.add(await shown(page));
+  }
+  assert.equal(seen.size, 6);
+  const error = await page.evaluate(() => {
+    const view = document.querySelector('trigon-viewer');
+    const told = new Promise((resolve) => view.addEventListener('error', ({ detail }) => resolve(detail.message)));
+    view.setAttribute('src', '/none.glb');
+    return told;
+  });
+  assert.match(error, /none\.glb/);
+  await page.close();
+});
+
+test('500 models in the page take no more memory than 20', async () => {
+  const page = await openWith(cube);
+  const memory = await page.evaluate(async (text) => {
+    const view = document.querySelector('trigon-viewer');
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const load = () => view.load(new Map([['cube.glb', bytes]]));
+    for (let i = 0; i < 20; i += 1) await load();
+    await view.settled();
+    const before = await view.memory();
+    for (let i = 0; i < 500; i += 1) await load();
+    await view.settled();
+    return [before, await view.memory()];
+  }, readFileSync(cube).toString('base64'));
+  assert.equal(memory[1], memory[0]);
+  await page.close();
+});
