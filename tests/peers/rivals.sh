@@ -1,17 +1,17 @@
 #!/bin/bash
 # Other renderers' images of the workloads, and their times beside trigon's.
 #
-# usage: tests/peers/rivals.sh PEERS images FOLDER   draw W2 to W6 with every peer, as RENDERER-WORKLOAD.png
-#        tests/peers/rivals.sh PEERS times [ROUNDS]    time everything in turn, and print crates/study/rivals/times.csv
+# usage: tests/peers/rivals.sh images FOLDER   draw W2 to W6 with every peer, as RENDERER-WORKLOAD.png
+#        tests/peers/rivals.sh times [ROUNDS]  time everything in turn, and print crates/study/rivals/times.csv
 #
-# PEERS is the folder of the programs that draw the workloads with OpenGL, Vulkan, euc and retrofire, where ./setup.sh has been
-# run once. To publish: images, then `cargo run --release -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`,
-# then on a machine that does nothing else times > crates/study/rivals/times.csv, then trigon-study.
+# The programs are in tests/peers/rivals, where ./setup.sh has to be run once. To publish: images, then `cargo run --release
+# -p trigon-study --example rivals -- FOLDER > crates/study/rivals/errors.csv`, then on a machine that does nothing else
+# times > crates/study/rivals/times.csv, then trigon-study.
 set -e
-[ $# -ge 2 ] || { sed -n '2,9s/^# \?//p' "$0"; exit 2; }
+[ $# -ge 1 ] || { sed -n '2,9s/^# \?//p' "$0"; exit 2; }
 cd "$(dirname "$0")/../.."
-peers=$(cd "$1" && pwd)
-. "$peers/env.sh"
+. tests/peers/rivals/env.sh
+build
 workloads="W2 W3 W4 W5 W6"
 
 # The peers with their settings of threads for one and for two cores.
@@ -43,7 +43,7 @@ times() {
         own 1
         own 2
     done
-    echo "# $(grep -m1 'model name' /proc/cpuinfo | sed 's/.*: //'), $1 rounds of 5 frames"
+    echo "# $(date -u +%F), commit $(git rev-parse --short=8 HEAD), $(grep -m1 'model name' /proc/cpuinfo | sed 's/.*: //'), $1 rounds of 5 frames"
     echo "renderer,workload,threads,low,median,high"
     python3 - "$PEERS_SAMPLES" <<'PYTHON'
 import sys
@@ -61,8 +61,8 @@ PYTHON
     rm "$PEERS_SAMPLES"
 }
 
-case $2 in
-    images) images "${3:-target/rivals}";;
-    times) times "${3:-5}";;
-    *) echo "there is no $2" >&2; exit 2;;
+case $1 in
+    images) images "${2:-target/rivals}";;
+    times) times "${2:-5}";;
+    *) echo "there is no $1" >&2; exit 2;;
 esac
