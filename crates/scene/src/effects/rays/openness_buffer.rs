@@ -2,8 +2,8 @@
 //! image read it.
 //!
 //! **Made** in two steps. A pass over the visible surfaces casts a sixteenth of the rays at each pixel of an image of
-//! half the size ([`AmbientRays`](super::AmbientRays), [`LampRays`](super::LampRays)). Then every pixel takes the mean of the 4×4 pixels around it (5×5,
-//! the outermost ones by half), which have cast all the rays together.
+//! half the size ([`AmbientRays`](super::AmbientRays), [`LampRays`](super::LampRays)). Then every pixel takes the mean of the
+//! 4×4 pixels around it (5×5, the outermost ones by half), which have cast all the rays together.
 //!
 //! **Read** bilinearly at every sample of the image.
 //!

@@ -81,8 +81,8 @@ struct Way {
 }
 
 /// By rays at every sample only the number of rays matters, and where they start. Pixels that share them take the mean of
-/// five pixels of 0.06 m, and their neighbours read it; where that is too coarse they cast 32 of the rays themselves. Maps compare 32 texels, and search as many, which may miss a
-/// caster that hides a tenth of the lamp.
+/// five pixels of 0.06 m, and their neighbours read it; where that is too coarse they cast 32 of the rays themselves.
+/// Maps compare 32 texels, and search as many, which may miss a caster that hides a tenth of the lamp.
 fn ways() -> [Way; 3] {
     let by_rays = |rays, sampling| EffectSettings {
         shadows: Shadows::Rays,
