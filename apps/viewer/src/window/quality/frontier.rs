@@ -166,7 +166,8 @@ mod tests {
         for (pass, events) in passes.enumerate() {
             let input = egui::RawInput {
                 screen_rect: Some(screen),
-                time: Some(pass as f64),
+                // A press of less than 0.8 s is a click.
+                time: Some(0.1 * pass as f64),
                 events,
                 ..egui::RawInput::default()
             };
