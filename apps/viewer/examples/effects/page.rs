@@ -88,7 +88,7 @@ from the middle of the lamp: only how much of it is visible is averaged over its
 - **By rays** (`--shadows=rays`). `--shadow-rays` of them go to points all over the disc: at every sample, or shared by pixels
   (`--shadow-sampling=shared`, the preset `high`) in the same way as [those of ambient occlusion](#ambient-occlusion-that-pixels-share), for each of up to
   16 lamps. Where the shared mean changes too fast for its reach of five pixels, it would blur an edge, and the samples cast a quarter of
-  the rays themselves. So sharp shadows stay sharp, and outside of penumbras all or none of the rays arrive.
+  the rays themselves. So sharp shadows stay sharp; near penumbras shared means can be a little off.
 - **By maps** (`--shadows=maps`), as percentage-closer soft shadows: 32 texels are searched for casters, and as many compared over a disc as
   wide as the penumbra of the caster that is nearest to the surface. A pyramid of the nearest depths bounds the search, so that surfaces with nothing before them
   pay a few look-ups. Only casters within the cone from the point to the lamp count, and texels are compared with the
