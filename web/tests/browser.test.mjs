@@ -74,7 +74,7 @@ for (const level of levels) {
     const page = await open();
     const lines = await page.evaluate(async (level) => {
       const module = await import(`/${level}/trigon_web_manifest.js`);
-      await module.default();
+      await module.default({ module_or_path: `/${level}/trigon_web_manifest_bg.wasm` });
       return module.lines();
     }, level);
     assert.deepEqual(lines.sort(), manifest());
