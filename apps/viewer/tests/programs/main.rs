@@ -1,17 +1,20 @@
 //! The whole program, run as a user runs it: images, streams, messages, exit
 //! codes. No display, no network.
 
+mod arrays;
 mod batch;
 mod comparing;
 mod facts;
+mod files;
+mod flags;
 mod frontier;
 mod glass;
+mod messages;
 mod moments;
 mod outputs;
 mod up;
 mod views;
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -82,6 +85,13 @@ fn image(path: &Path) -> trigon_io::RgbaImage {
     trigon_io::load_image(path, &trigon_io::Limits::default()).expect("an image")
 }
 
+/// The numbers of a NumPy file, behind its header.
+fn array(path: &Path) -> Vec<u8> {
+    let bytes = fs::read(path).expect("written");
+    assert!(bytes.starts_with(b"\x93NUMPY"), "an array");
+    bytes[10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]))..].to_owned()
+}
+
 /// The least of the SIMD levels that are always built in.
 const NARROW: &str = if cfg!(target_arch = "x86_64") {
     "--simd=sse2"
@@ -144,234 +154,6 @@ fn a_reader_that_leaves_early_is_no_panic() {
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(!said.contains("panicked"), "{flags}: {said}");
     }
-}
-
-#[test]
-fn every_flag_about_the_image_changes_it() {
-    let folder = Folder::new();
-    let stream = |flags: &str| {
-        let output = folder.run(&format!("corner.obj --output - --resolution 60,40 {flags}"));
-        assert!(output.status.success(), "`{flags}`: {}", String::from_utf8_lossy(&output.stderr));
-        output.stdout
-    };
-    let plain = stream("");
-    for flags in [
-        "--up=+Z",
-        "--edges",
-        "--style=wireframe",
-        "--style=hidden-line",
-        "--anti-aliasing=none",
-        "--samples=4",
-        "--anti-aliasing=msaa",
-        "--view=front",
-        "--camera-direction=1,0,0",
-        "--camera-position=3,4,5",
-        "--camera-focal-point=1,1,1",
-        "--camera-view-up=1,1,0",
-        "--camera-view-angle=60",
-        "--camera-zoom-factor=2",
-        "--camera-azimuth-angle=30",
-        "--camera-elevation-angle=30",
-        "--camera-orthographic",
-        "--opacity=50%",
-        "--metallic=1",
-        "--roughness=0.2",
-        "--point-sprites",
-        "--shadows",
-        "--ambient-occlusion",
-        "--light-intensity=0.5",
-    ] {
-        assert!(stream(flags) != plain, "`{flags}` changes nothing");
-    }
-    let pixels = |flags: &str| {
-        folder.said(&format!("corner.obj --output o.png --resolution 60,40 --verbose=error {flags}"), 0);
-        image(&folder.path("o.png")).rgba
-    };
-    let count =
-        |flags: &str, color: [u8; 4]| pixels(flags).chunks(4).filter(|pixel| **pixel == color).count();
-    let (all, model) = (60 * 40, 60 * 40 - count("--no-background", [0; 4]));
-    assert!((200..2000).contains(&model), "the model takes a part of the image: {model} pixels");
-    // Edges of the model are mixed with what is behind them.
-    assert_eq!(count("--background-color=navy", [0, 0, 128, 255]), all - model, "navy where no model is");
-    let inner = model - 120;
-    assert!((inner..=model).contains(&count("--color=green --unlit", [0, 128, 0, 255])), "a green model");
-    folder.write(
-        "tile.obj",
-        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n",
-    );
-    let colors_of_tile = |flags: &str| {
-        let flags = format!("--view=front --unlit --no-background --anti-aliasing=none {flags}");
-        folder.said(&format!("tile.obj --output t.png --resolution 60,40 {flags}"), 0);
-        image(&folder.path("t.png")).rgba.chunks(4).map(<[u8]>::to_vec).collect::<BTreeSet<_>>().len()
-    };
-    let colors = [colors_of_tile(""), colors_of_tile("--checkerboard")];
-    assert_eq!(colors, [2, 3], "the background, and one or two colors");
-    // The camera sees the outside of the corner from one side, and its inside from the other.
-    let hidden = ["1,1,1", "-1,-1,-1"].map(|direction| {
-        count(&format!("--no-background --backface-type=hidden --camera-direction={direction}"), [0; 4])
-    });
-    assert!(hidden.contains(&all) && hidden.iter().any(|count| *count < all), "{hidden:?}");
-    for flags in
-        ["--threads=1", NARROW, "--edges=false", "--samples=3", "--style=surface", "--camera-index=-1"]
-    {
-        assert!(stream(flags) == plain, "`{flags}` is the default");
-    }
-    assert!(stream("--edges --line-width=5") != stream("--edges"), "width of edges");
-    let soft = [
-        "",
-        " --light-radius=0.5",
-        " --light-radius=0.5 --shadow-rays=3",
-        " --light-radius=0.5 --shadow-sampling=shared",
-    ];
-    let soft = soft.map(|flags| stream(&format!("--shadows=rays{flags}")));
-    assert!(soft.iter().enumerate().all(|(at, one)| !soft[..at].contains(one)), "soft shadows");
-}
-
-#[test]
-fn a_preset_is_some_settings_at_once() {
-    let folder = Folder::new();
-    let drawn = |flags: &str| {
-        folder.said(&format!("corner.obj --output o.png --resolution 60,40 {flags}"), 0);
-        image(&folder.path("o.png"))
-    };
-    assert!(drawn("--preset=draft") == drawn("--anti-aliasing=none"), "one sample");
-    assert!(drawn("--preset=standard") == drawn("--samples=2"), "2×2");
-    assert!(drawn("--preset=standard --samples=3") == drawn(""), "what is said for itself wins");
-    assert!(drawn("--preset=reference") != drawn("--samples=4"), "sixteen times as many");
-}
-
-#[test]
-fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
-    let folder = Folder::new();
-    // The longest and the shortest that there is: on any machine an image of this size
-    // fits into the one, and none into the other.
-    for (time, quality, gave_up) in
-        [("3600s", "4×4 samples of 16,", "gave up nothing"), ("0.001ms", "1 sample,", "; gave up ")]
-    {
-        let flags = format!("--output o.png --capture o.trigon --resolution 60,40 --time-budget={time}");
-        let said = folder.said(&format!("corner.obj {flags}"), 0);
-        let choice = said.lines().next().expect("a line");
-        assert!(choice.contains(quality) && choice.contains(gave_up), "{choice}");
-        assert!(choice.contains("; took ") && choice.contains("RMSE"), "time and error: {choice}");
-        folder.said("--replay o.trigon", 0);
-    }
-    let said = folder.said("--output o.png --time-budget=16", 2);
-    assert!(said.contains("16ms"), "a unit is missing: {said}");
-}
-
-#[test]
-fn several_files_are_drawn_together_or_under_several_names() {
-    let folder = Folder::new();
-    folder.write("b.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n");
-    // The same faces in one file.
-    let together = format!("{CORNER}usemtl none\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 8 9 10\n");
-    folder.write("together.obj", &together);
-    let said = folder.said("corner.obj b.obj --output {model}_{n:2}.png --resolution 20,20", 0);
-    assert_eq!(said.lines().count(), 2, "a line each: {said}");
-    folder.said("corner.obj b.obj --output all.png --multi-file-mode=all --resolution 20,20", 0);
-    for (name, alone) in [("corner_01.png", "corner.obj"), ("b_01.png", "b.obj"), ("all.png", "together.obj")]
-    {
-        folder.said(&format!("{alone} --output alone.png --resolution 20,20 --verbose=error"), 0);
-        assert!(image(&folder.path(name)) == image(&folder.path("alone.png")), "{name} shows {alone}");
-    }
-    let shows = |name: &str| image(&folder.path(name)).rgba;
-    assert!(shows("corner_01.png") != shows("b_01.png") && shows("all.png") != shows("corner_01.png"));
-
-    let said = folder.said("corner.obj b.obj --output one.png", 2);
-    assert!(said.contains("{model}") && said.contains("--multi-file-mode=all"), "both remedies: {said}");
-    fs::create_dir(folder.path("other")).expect("a folder");
-    fs::copy(folder.path("b.obj"), folder.path("other/b.obj")).expect("a copy");
-    let said = folder.said("b.obj other/b.obj --output {model}.png --resolution 20,20", 2);
-    assert!(said.contains("two images") && said.contains("{n}"), "no image is lost silently: {said}");
-}
-
-#[test]
-fn one_bad_file_among_several_fails_the_run_but_not_the_others() {
-    let folder = Folder::new();
-    let said = folder.said("missing.obj corner.obj --output {model}.png --resolution 20,20", 1);
-    assert!(said.contains("missing.obj"), "named: {said}");
-    assert!(folder.path("corner.png").is_file(), "the good one is drawn");
-}
-
-#[test]
-fn failures_are_one_line_that_names_the_file() {
-    let folder = Folder::new();
-    folder.write("empty.obj", "");
-    folder.write("model.stl", "solid x\nendsolid x\n");
-    folder.write("model.fbx", "Kaydara FBX Binary");
-    folder.write("broken.gltf", "{ \"asset\": ");
-    for (flags, words) in [
-        ("missing.obj --output o.png", ["missing.obj", "check the name"]),
-        ("empty.obj --output o.png", ["empty.obj", "nothing to draw"]),
-        ("model.stl --output o.png", ["model.stl", "nothing to draw"]),
-        ("model.fbx --output o.png", ["model.fbx", "supported"]),
-        ("broken.gltf --output o.png", ["broken.gltf", ""]),
-        (
-            "corner.obj --output no/such/folder/o.png",
-            ["no/such/folder/o.png", "no/such/folder does not exist"],
-        ),
-        ("corner.obj --output o.png --max-size=0.00001", ["corner.obj", "--max-size"]),
-        ("corner.obj --output o.png --camera-index=0", ["--camera-index=0", "no camera"]),
-    ] {
-        let said = folder.failed(flags);
-        assert!(words.iter().all(|word| said.contains(word)), "`{flags}`: {said}");
-    }
-    assert!(!folder.path("o.png").exists(), "no image of a failure");
-}
-
-#[test]
-fn warnings_are_lines_and_can_be_silenced() {
-    let folder = Folder::new();
-    fs::remove_file(folder.path("corner.mtl")).expect("it was there");
-    let said = folder.said("corner.obj --output o.png --resolution 20,20", 0);
-    let warning = said.lines().next().expect("a line");
-    assert!(warning.starts_with("trigon-viewer: warning: ") && warning.contains("corner.mtl"), "{said}");
-    let said = folder.said("corner.obj --output o.png --resolution 20,20 --verbose=error", 0);
-    assert_eq!(said, "", "silenced");
-    let said = folder.said("missing.obj --output o.png --verbose=quiet", 1);
-    assert_eq!(said, "", "the exit code has to do");
-    let said = folder.said("corner.obj --output o.png --resolution 20,20 --raytracing", 0);
-    assert!(said.contains("--raytracing is ignored"), "a flag of a GPU: {said}");
-}
-
-#[test]
-fn an_image_that_shows_nothing_of_the_model_says_so() {
-    let folder = Folder::new();
-    let away = "--camera-position 9,9,9 --camera-focal-point 20,20,20 --output o.png --resolution 20,20";
-    let said = folder.said(&format!("corner.obj {away}"), 0);
-    assert!(said.contains("the model is not in view"), "{said}");
-}
-
-/// A level that only other processors have.
-const ELSEWHERE: &str = if cfg!(target_arch = "aarch64") { "--simd=sse2" } else { "--simd=neon" };
-
-#[test]
-fn a_senseless_command_line_exits_with_2() {
-    let folder = Folder::new();
-    for (flags, words) in [
-        ("--resolutoin 10,10", "--resolution"),
-        ("--resolution 0,10", "1 to 16384"),
-        ("--output o.tiff", ".png"),
-        ("--outputs depth corner.obj", "--output"),
-        ("--output - --outputs depth corner.obj", "standard output"),
-        ("--output o.exr --outputs depth.png corner.obj", "without an ending"),
-        ("--output o.png --outputs dept corner.obj", "triangle-ids"),
-        ("--camera-position 1,2,3 --camera-focal-point 1,2,3 --output o.png", "same point"),
-        ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "view direction is undefined"),
-        ("--background-color=blurple", "CSS name"),
-        ("--simd=mmx", "mmx is not available here; write one of"),
-        (ELSEWHERE, "is not available here; write one of"),
-    ] {
-        let said = folder.said(flags, 2);
-        assert!(said.contains(words), "`{flags}`: {said}");
-    }
-}
-
-#[test]
-fn without_a_display_the_message_says_how_to_get_an_image() {
-    let folder = Folder::new();
-    let said = folder.failed("corner.obj");
-    assert!(said.contains("--output image.png"), "the remedy: {said}");
 }
 
 /// The contents tell the format, or --force-reader does.
@@ -523,96 +305,6 @@ fn a_check_lists_faults_with_remedies() {
 }
 
 /// What --capture wrote is drawn again without the model, and told from another.
-/// The numbers of a NumPy file, behind its header.
-fn array(path: &Path) -> Vec<u8> {
-    let bytes = fs::read(path).expect("written");
-    assert!(bytes.starts_with(b"\x93NUMPY"), "an array");
-    bytes[10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]))..].to_owned()
-}
-
-#[test]
-fn outputs_are_written_next_to_the_image_or_in_it() {
-    let folder = Folder::new();
-    let draw = "corner.obj --resolution 30,20 --view=front";
-    let said = folder.said(&format!("{draw} --output o.png --outputs depth,object-ids,depth.png"), 0);
-    let names = ["o.png", "o.depth.npy", "o.object-ids.npy", "o.depth.png"];
-    let lines = names.map(|name| format!("trigon-viewer: wrote {name} (30×20)\n"));
-    assert_eq!(said, lines.concat(), "a line for each file");
-    let (depths, ids) = (array(&folder.path("o.depth.npy")), array(&folder.path("o.object-ids.npy")));
-    let millimetres = fs::read(folder.path("o.depth.png")).expect("written");
-    assert_eq!((depths.len(), ids.len(), png_size(&millimetres)), (2400, 2400, (30, 20)), "all pixels");
-    let number = |bytes: &[u8], x: usize, y: usize| {
-        let at = 4 * (y * 30 + x);
-        u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
-    };
-    assert_eq!([number(&ids, 0, 0), number(&ids, 15, 10)], [u32::MAX, 0], "background and model");
-    assert_eq!(f32::from_bits(number(&depths, 0, 0)), f32::INFINITY, "background");
-    assert!((0.5..10.0).contains(&f32::from_bits(number(&depths, 15, 10))), "metres");
-
-    let said = folder.said(&format!("{draw} --output o.exr --outputs depth,normals"), 0);
-    assert_eq!(said, "trigon-viewer: wrote o.exr (30×20)\n", "one file");
-    let bytes = fs::read(folder.path("o.exr")).expect("written");
-    for word in [&b"N.X\0"[..], b"Z\0", b"A\0"] {
-        assert!(bytes.windows(word.len()).any(|window| window == word), "the channel {word:?}");
-    }
-}
-
-/// A plate of 2 m, 10⁶ and 10⁷ m away: f32 in the world would round its positions to 6 cm and to a metre. Seen straight
-/// from the front by parallel rays they are as far apart as pixels are.
-#[test]
-fn positions_far_away_are_relative_to_an_origin_that_is_said() {
-    let folder = Folder::new();
-    for far in [1e6, 1e7] {
-        let corner = |x: f64, y: f64| format!("v {} {} {}\n", far + x, y - far, 0.25 * far);
-        let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)].concat();
-        folder.write("plate.obj", &format!("{corners}f 1 2 3 4\n"));
-        let draw = "plate.obj --view=front --camera-orthographic --resolution 40,40 --outputs positions";
-        let said = folder.said(&format!("{draw} --output o.png"), 0);
-        assert!(said.contains("wrote o.positions-origin.npy (add it to the positions: "), "{said}");
-        let bytes = array(&folder.path("o.positions-origin.npy"));
-        let origin: Vec<f64> =
-            bytes.as_chunks::<8>().0.iter().map(|number| f64::from_le_bytes(*number)).collect();
-        let bytes = array(&folder.path("o.positions.npy"));
-        let numbers: Vec<f32> =
-            bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number)).collect();
-        let middle = [far, -far, 0.25 * far];
-        let at = |x: usize, y: usize| {
-            [0, 1, 2].map(|axis| origin[axis] + f64::from(numbers[3 * (40 * y + x) + axis]) - middle[axis])
-        };
-        let pixel = at(20, 20)[0] - at(19, 20)[0];
-        assert!((0.05..0.06).contains(&pixel), "the plate fills nine tenths of 40 pixels: {pixel} m");
-        for (x, y) in (4..36).flat_map(|x| (4..36).map(move |y| (x, y))) {
-            let expected = [(x as f64 - 19.5) * pixel, (19.5 - y as f64) * pixel, 0.0];
-            let off = [0, 1, 2].map(|axis| (at(x, y)[axis] - expected[axis]).abs());
-            // What is left of f32 within 4 m of the origin, and of f64 at 10⁷ m, up to 20 times.
-            assert!(off.iter().all(|off| *off < 1e-5), "{off:?} at {x}, {y} of {far}");
-        }
-        folder.said(&format!("{draw} --output o.exr"), 0);
-        let word = format!("{} {} {}", origin[0], origin[1], origin[2]);
-        let bytes = fs::read(folder.path("o.exr")).expect("written");
-        assert!(bytes.windows(word.len()).any(|window| window == word.as_bytes()), "{word} in o.exr");
-        let printed = folder.run(&format!("{draw} --output p.png --json")).stdout;
-        let facts: serde_json::Value = serde_json::from_slice(&printed).expect("a line of JSON");
-        assert_eq!(facts["positions_origin"], serde_json::json!(origin), "the same");
-    }
-    let said = folder.said("corner.obj --resolution 30,20 --output n.png --outputs positions", 0);
-    assert!(
-        said.contains("(add it to the positions: 0, 0, 0)"),
-        "near the origin they are the world's: {said}"
-    );
-}
-
-#[test]
-fn an_output_that_does_not_fit_its_format_is_refused() {
-    let folder = Folder::new();
-    let far = "corner.obj --output o.png --resolution 20,20 --verbose=warning --camera-position=90,50,90 --camera-view-angle=1";
-    let said = folder.failed(&format!("{far} --outputs depth.png"));
-    assert!(said.contains("o.depth.png: ") && said.contains("65.535 m"), "{said}");
-    folder.said(&format!("{far} --outputs depth"), 0);
-    let said = folder.said(&format!("{far} --outputs uvs.png"), 2);
-    assert!(said.contains("uvs.npy"), "16 bits say nothing of it, and that is known before drawing: {said}");
-}
-
 #[test]
 fn a_capture_is_replayed_without_its_model() {
     let folder = Folder::new();
