@@ -301,8 +301,10 @@ impl Penumbra {
         disc: &Disc<S>,
         widest: F32<S>,
     ) -> (F32<S>, Mask<S>) {
-        let none = F32::splat(simd, f32::INFINITY);
-        let mut nearest = none;
+        let (zero, none) = (F32::splat(simd, 0.0), F32::splat(simd, f32::INFINITY));
+        // The middle is within cones of any width: the others miss casters at a small fraction of the widest one.
+        let (stored, is_nearer) = disc.texel(simd, map, Vec2::ZERO, zero);
+        let mut nearest = is_nearer.select(stored, none);
         for (index, point) in SEARCHED.points().iter().enumerate() {
             // More in the middle, where the cones of casters next to the point are.
             let square = SEARCHED.square(index);

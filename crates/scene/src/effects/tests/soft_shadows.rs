@@ -139,6 +139,31 @@ fn a_penumbra_is_as_wide_as_similar_triangles_say() {
     }
 }
 
+/// A search whose width is that of a high roof has few texels for the wall at whose foot the point lies.
+#[test]
+fn the_foot_of_a_wall_is_dark_beneath_a_roof() {
+    for (subject, edge) in [(0, -2.1), (1, -1.4)] {
+        let mut scene = Scene::new();
+        scene.add_object("floor", primitives::plane(24.0, 24.0), matt(Vec3::ONE));
+        for (size, middle) in [
+            (DVec3::new(0.1, 0.5, 12.0), DVec3::new(-0.05, 0.25, 0.0)),
+            (DVec3::new(1.4, 0.1, 12.0), DVec3::new(edge + 0.7, 2.5, 0.0)),
+        ] {
+            let body = scene.add_object("body", primitives::cube(1.0), matt(Vec3::ONE));
+            scene.node_mut(body).expect("just added").transform =
+                Transform::from_scale_rotation_translation(size, DQuat::IDENTITY, middle);
+        }
+        scene.add(subjects()[subject].node.clone());
+        for Way { effects, .. } in ways() {
+            let row = row(&scene, &effects);
+            let foot: Vec<_> = row.iter().filter(|(at, _)| (0.05..0.2).contains(&at.x)).collect();
+            assert!(foot.len() > 1, "{} pixels", foot.len());
+            // The wall hides the whole lamp.
+            assert!(foot.iter().all(|(_, lit)| *lit < 1e-5), "{subject}, {:?}: {foot:?}", effects.shadows);
+        }
+    }
+}
+
 #[test]
 fn a_lamp_without_a_radius_casts_the_sharp_shadow() {
     for shadows in [Shadows::Rays, Shadows::Maps { resolution: 256 }] {
