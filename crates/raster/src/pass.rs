@@ -27,8 +27,9 @@ pub(crate) struct RecordedDraw<'a> {
 
 /// A recorded frame: draws, each with its own pipeline, in any order.
 ///
-/// The order in which draws are recorded does not matter: the nearest sample is visible, and of equally near
-/// ones that with the smaller (object, face).
+/// The order in which draws of different objects are recorded does not matter: the nearest sample is visible, and
+/// of equally near ones that with the smaller (object, face). Where these are equal, too, the smaller index in its
+/// draw is visible, then the earlier draw.
 pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
     pub(crate) draws: Vec<RecordedDraw<'a>>,
