@@ -204,12 +204,22 @@ fn translucent_faces_paint_nothing_beside_themselves() {
 
 #[test]
 fn only_draws_that_list_edges_show_them() {
-    let faces = Faces::rectangles(&[[10.0, 10.0, 38.0, 38.0, 0.5]]);
-    let mut pass = pass(&[], 4.0);
-    pass.triangles(Draw { culling: Culling::None, ..Draw::new(&faces, &faces.triangles) });
+    let [left, right] = [4.0, 28.0].map(|x| Faces::rectangles(&[[x, 10.0, x + 16.0, 38.0, 0.5]]));
+    let listing = [&left];
+    let mut pass = pass(&listing, 4.0);
+    pass.triangles(Draw { object: 1, culling: Culling::None, ..Draw::new(&right, &right.triangles) });
     let mut target = target(PLAIN);
     Rasterizer::default().draw(&pass, &mut target);
-    assert!(target.linear().unwrap().iter().all(|&color| color == Vec4::ONE), "white on white");
+    for (index, &color) in (0..).zip(target.linear().unwrap()) {
+        let [x, y]: [u32; 2] = [index % SIDE, index / SIDE];
+        // The lines of the left one are two pixels wide on either side of its edges.
+        let beside = [x.abs_diff(4).min(x.abs_diff(19)), y.abs_diff(10).min(y.abs_diff(37))];
+        if (6..18).contains(&x) && (12..36).contains(&y) || !(2..22).contains(&x) || !(8..40).contains(&y) {
+            assert!((color - Vec4::ONE).abs().max_element() < ROUNDING, "{color} at ({x}, {y}), not white");
+        } else if beside[0] == 0 && (10..38).contains(&y) || beside[1] == 0 && (4..20).contains(&x) {
+            assert!(color.x < ROUNDING, "{color} on an edge, at ({x}, {y})");
+        }
+    }
 }
 
 /// Slivers of a fan around a corner of a large square: each by itself would count as small.
