@@ -1,6 +1,6 @@
 use trigon_camera::Camera;
 use trigon_math::DVec3;
-use trigon_mesh::{Mesh, primitives};
+use trigon_mesh::{Attributes, Mesh, primitives};
 use trigon_raster::simd::SimdLevel;
 use trigon_raster::{Texture, TextureFormat};
 
@@ -169,11 +169,16 @@ fn levels_and_threads_change_no_byte() {
 
 #[test]
 fn a_mesh_without_coordinates_shows_zeros() {
-    let mut scene = Scene::new();
-    let mesh: Mesh = primitives::cube(1.0);
-    scene.add_object("cube", mesh, Material::default());
-    let camera = scene.overview(1.0);
+    let mut mesh: Mesh = primitives::plane(4.0, 4.0);
+    mesh.set_attributes(Attributes::default()).expect("no list to fit");
+    let (mut scene, camera) = (Scene::new(), plane().1);
+    scene.add_object("plane", mesh, Material::default());
+    let outputs = Outputs { ids: true, ..Outputs::default() };
     for display in Display::ALL {
-        render(&scene, &camera, &settings(display)).expect("drawn");
+        let settings = RenderSettings { outputs, ..settings(display) };
+        let frame = render(&scene, &camera, &settings).expect("drawn");
+        assert_eq!(frame.object_ids, Some(vec![0; 81]), "{}: it fills the image", display.name());
+        let is_zero = frame.color.chunks(4).all(|pixel| pixel == [0, 0, 0, 255]);
+        assert!(is_zero || display != Display::TextureCoordinates, "{:?}", frame.color);
     }
 }

@@ -131,16 +131,23 @@ mod tests {
     use crate::light::Light;
     use fearless_simd::Fallback;
     use trigon_math::DVec3;
+    use trigon_raster::simd::{F32, LANES, prelude::*};
 
     /// The value of a white Lambertian surface two metres away, lit and seen head-on.
     fn shown(lights: &Lights) -> Vec3 {
+        shown_at(lights, [2.0; LANES])[0]
+    }
+
+    /// The same of surfaces at eight distances.
+    fn shown_at(lights: &Lights, distances: [f32; LANES]) -> [Vec3; LANES] {
         let simd = Fallback::new();
-        let at = |vector| -> V3<Fallback> { splat(simd, vector) };
-        let [position, normal] = [at(Vec3::NEG_Z * 2.0), at(Vec3::Z)];
+        let normal: V3<Fallback> = splat(simd, Vec3::Z);
+        let mut position = splat(simd, Vec3::ZERO);
+        position[2] = F32::simd_from(simd, distances.map(|distance| -distance));
         let points = LitPoints::elsewhere(simd, position, normal, normal);
         let lighting = LightingEnvironment { lights: lights.clone(), ..LightingEnvironment::default() };
-        let reflected = lighting.reflected(simd, &points, &Brdf::Lambert);
-        Vec3::from(reflected.diffuse.map(|channel| channel[0]))
+        let [red, green, blue] = lighting.reflected(simd, &points, &Brdf::Lambert).diffuse;
+        std::array::from_fn(|lane| Vec3::new(red[lane], green[lane], blue[lane]))
     }
 
     fn lamp(light: Light, to_camera: DAffine3) -> Lights {
@@ -165,7 +172,10 @@ mod tests {
     #[test]
     fn a_light_on_the_surface_gives_no_nan() {
         let there = DAffine3::from_translation(DVec3::new(0.0, 0.0, -2.0));
-        assert_eq!(shown(&lamp(Light::point(1.0), there)), Vec3::ZERO, "no direction, no light");
+        let found = shown_at(&lamp(Light::point(1.0), there), [3.0, 3.0, 2.0, 3.0, 3.0, 3.0, 3.0, 3.0]);
+        let mut expected = [Vec3::ONE; LANES];
+        expected[2] = Vec3::ZERO;
+        assert_eq!(found, expected, "no direction, no light; a metre before the lamp there is all of it");
     }
 
     #[test]

@@ -75,6 +75,13 @@ fn light(frame: &Frame, x: u32, y: u32) -> f32 {
     color::srgb8_to_linear(frame.pixel(x, y)[1])
 }
 
+/// Where a pixel is across and above the middle of the image, in radii of a ball around that.
+fn on_ball(pixel: usize, radius: f64) -> [f64; 2] {
+    let [x, y] = [pixel % SIDE as usize, pixel / SIDE as usize];
+    let metres = |at: usize| (at as f64 + 0.5) / f64::from(SIDE) * WIDE - WIDE / 2.0;
+    [metres(x) / radius, -metres(y) / radius]
+}
+
 fn metal(metallic: f32) -> Material {
     let model = MetallicRoughness { metallic, roughness: 0.0, ..MetallicRoughness::default() };
     Material { base_color: Vec4::ONE, shading: Shading::MetallicRoughness(model), ..Material::default() }

@@ -99,15 +99,25 @@ fn error(scene: &Scene, camera: &Camera, settings: RenderSettings) -> (f64, u64)
     ((sum / f64::from(count)).sqrt(), renderer.effect_counts(Effect::AmbientOcclusion).rays)
 }
 
-/// By the inverse of the projection matrix.
+/// By the fields of the projection.
 fn ray_through(camera: &Camera, pixel: DVec2, size: DVec2) -> (DVec3, DVec3) {
-    let inverse = camera.projection.matrix(size.x / size.y).inverse();
     let [x, y] = [2.0 * pixel.x / size.x - 1.0, 1.0 - 2.0 * pixel.y / size.y];
-    let [near, far] = [0.9, 0.2].map(|depth| inverse.project_point3(DVec3::new(x, y, depth)));
-    let world = |point: DVec3| camera.position + camera.orientation * point;
-    let (near, direction) = (world(near), (world(far) - world(near)).normalize());
-    // From where the eye is, or as far behind.
-    (near - direction * 10.0, direction)
+    let wide = x * size.x / size.y;
+    let (from, along) = match camera.projection {
+        Projection::Perspective { vertical_fov, .. } => {
+            let half = elementary::tan(vertical_fov / 2.0);
+            (DVec3::ZERO, DVec3::new(wide * half, y * half, -1.0))
+        }
+        Projection::Orthographic { height, .. } => (DVec3::new(wide, y, 0.0) * height / 2.0, DVec3::NEG_Z),
+        Projection::Frustum { left, right, bottom, top, near, .. } => {
+            let window = DVec2::new(right - left, top - bottom) * DVec2::new(x, y);
+            (DVec3::ZERO, ((DVec2::new(left + right, bottom + top) + window) / 2.0).extend(-near))
+        }
+        other => panic!("not for {other:?}"),
+    };
+    let direction = (camera.orientation * along).normalize();
+    // From behind the eye, where parallel rays begin, and where nothing is.
+    (camera.position + camera.orientation * from - direction * 10.0, direction)
 }
 
 /// Sixteen rays at every sample err by chance, 64 shared ones where occlusion is narrower than a few pixels.
