@@ -197,5 +197,10 @@ mod tests {
         let limits = Limits { image_pixels: 64 * 63, ..Limits::default() };
         let why = decode_image(&png, &limits).expect_err("one row too many");
         assert!(why.contains("limit"), "{why}");
+        // 60000 × 60000 pixels, none of which is there: if memory for them were allocated first, they would be missed.
+        let bomb = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea`\0\0\xea`\x08\x06\0\0\0\x80\xd2uB\
+            \0\0\0\x08IDATx\x9c\x03\0\0\0\0\x01H\x06\x89\xd2\0\0\0\0IEND\xaeB`\x82";
+        let why = decode_image(bomb, &Limits::default()).expect_err("too large");
+        assert!(why.contains("limit"), "{why}");
     }
 }

@@ -215,6 +215,13 @@ fn files_are_written_whole_and_errors_name_them() {
     write_exr(path("a.exr"), &frame).expect("written");
     write_png16(path("a.png"), &frame, Output::Normals).expect("written");
     assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 3, "no temporary file");
+    let mut whole: [Vec<u8>; 3] = Default::default();
+    encode_npy(&mut whole[0], &frame, Output::Depth).expect("memory takes it");
+    encode_exr(&mut whole[1], &frame).expect("memory takes it");
+    encode_png16(&mut whole[2], &frame, Output::Normals).expect("memory takes it");
+    for (name, expected) in ["a.npy", "a.exr", "a.png"].into_iter().zip(whole) {
+        assert!(std::fs::read(path(name)).expect("a file") == expected, "{name} has other bytes");
+    }
     let error = write_npy(path("no/a.npy"), &frame, Output::Depth).expect_err("no such folder");
     assert!(error.to_string().contains("a.npy"), "{error}");
 }

@@ -288,16 +288,30 @@ fn smooth_faces_have_their_normals_in_a_ply() {
 fn objects_are_in_their_places() {
     let mut scene = scene_of(primitives::cube(2.0));
     let (id, _) = scene.nodes().iter().next().expect("one");
-    let turn = DQuat::from_rotation_z(1.0);
+    let (sine, cosine) = trigon_math::elementary::sin_cos(1.0);
     let transform = Transform::from_scale_rotation_translation(
         DVec3::new(-1.0, 2.0, 0.5),
-        turn,
+        DQuat::from_rotation_z(1.0),
         DVec3::new(3.0, 4.0, 5.0),
     );
     scene.node_mut(id).expect("it exists").transform = transform;
     for format in FORMATS.into_iter().filter(|&(format, _)| format != Format::Stl) {
         let read = again(&scene, format, &ExportOptions::default());
         let (_, asset) = read.scene.meshes().iter().next().expect("one");
+        let found = asset.mesh().positions();
+        let corners: [DVec3; 8] = std::array::from_fn(|bits| {
+            let corner = [0, 1, 2].map(|axis| if bits >> axis & 1 == 0 { -1.0 } else { 1.0 });
+            let [x, y, z] = [-corner[0], 2.0 * corner[1], 0.5 * corner[2]];
+            DVec3::new(3.0 + x * cosine - y * sine, 4.0 + x * sine + y * cosine, 5.0 + z)
+        });
+        // Numbers below 8 in f32. A PLY has a vertex for each normal of a corner.
+        let is_near = |vertex: &Vec3, corner: &DVec3| vertex.as_dvec3().abs_diff_eq(*corner, 1e-6);
+        for corner in &corners {
+            assert!(found.iter().any(|vertex| is_near(vertex, corner)), "{format:?}: {corner}, {found:?}");
+        }
+        for vertex in found {
+            assert!(corners.iter().any(|corner| is_near(vertex, corner)), "{format:?}: {vertex}");
+        }
         let outward = (0..6).all(|face| {
             let place =
                 |corner: usize| asset.mesh().positions()[asset.mesh().face_vertices(face)[corner] as usize];
