@@ -1,5 +1,7 @@
 //! The scene as a container, and what an image promises about it.
 
+use std::collections::BTreeSet;
+
 use proptest::prelude::*;
 use trigon_camera::{Camera, Projection};
 use trigon_math::{DAffine3, DQuat, DVec3, Vec3};
@@ -125,11 +127,30 @@ fn depth_is_metres_along_the_view_axis() {
 #[test]
 fn hidden_nodes_and_those_below_them_are_not_drawn() {
     let mut scene = Scene::new();
-    let cube = scene.add_object("cube", primitives::cube(1.0), Material::default());
+    let (cube, material) =
+        (scene.add_mesh("cube", primitives::cube(1.0)), scene.add_material(Material::default()));
+    let node = |x: f64| Node::from_mesh(cube, material).at(DVec3::X * x);
+    let parent = scene.add(node(0.0));
+    let child = scene.add_child(parent, node(2.0)).expect("the parent is there");
+    let grandchild = scene.add_child(child, node(2.0)).expect("the child is there");
+    let beside = scene.add(node(-2.0));
     let camera = scene.overview(4.0 / 3.0);
-    scene.node_mut(cube).expect("there").visible = false;
-    let ids = draw(&scene, &camera).object_ids.expect("asked for");
-    assert!(ids.iter().all(|&id| id == u32::MAX), "only background");
+    let drawn = |scene: &Scene| -> BTreeSet<u32> {
+        let ids = draw(scene, &camera).object_ids.expect("asked for");
+        ids.into_iter().filter(|&id| id != u32::MAX).collect()
+    };
+    let indices = |nodes: &[NodeId]| nodes.iter().map(|node| node.index() as u32).collect::<BTreeSet<_>>();
+    assert_eq!(drawn(&scene), indices(&[parent, child, grandchild, beside]), "all four");
+    for (hidden, left) in [
+        (parent, &[beside][..]),
+        (child, &[parent, beside]),
+        (grandchild, &[parent, child, beside]),
+        (beside, &[parent, child, grandchild]),
+    ] {
+        scene.node_mut(hidden).expect("there").visible = false;
+        assert_eq!(drawn(&scene), indices(left), "without {hidden:?}");
+        scene.node_mut(hidden).expect("there").visible = true;
+    }
 }
 
 #[test]

@@ -86,6 +86,8 @@ struct Footprint {
     place: DVec2,
     /// For a pixel to the right, and one downwards.
     steps: [DVec2; 2],
+    /// The corners' shares of the point with a w of 1.
+    shares: DVec3,
     /// How far one step changes the shares of the corners at most, all together: what roundings are multiplied by.
     change: f64,
 }
@@ -105,7 +107,7 @@ impl Footprint {
         let changes = [inverse.x_axis * unit, inverse.y_axis * -unit];
         let steps = changes.map(|change| (mixed(change) - place * change.element_sum()) / total);
         let change = changes.map(|change| change.abs().element_sum() / total.abs());
-        Self { place, steps, change: change[0].max(change[1]) }
+        Self { place, steps, shares, change: change[0].max(change[1]) }
     }
 
     /// Its sides in texels, the longer one first, and the step along that.
@@ -141,10 +143,35 @@ fn wall() -> impl Strategy<Value = [(Vec4, Vec2); 3]> {
 /// are less than three pixels high are left out by [`is_large`].
 const STRETCHED: f64 = 2.0 / 120.0 / 3.0;
 
+/// A pixel and its eight neighbours.
+fn block([x, y]: [i32; 2]) -> impl Iterator<Item = [i32; 2]> {
+    (-1..=1).flat_map(move |dy| (-1..=1).map(move |dx| [x + dx, y + dy]))
+}
+
+fn is_shown(shown: &[([i32; 2], Vec4)], [x, y]: [i32; 2]) -> bool {
+    shown.binary_search_by_key(&[y, x], |(at, _)| [at[1], at[0]]).is_ok()
+}
+
 /// Whether a pixel lies within a block of 3 by 3 pixels that the triangle covers as a whole.
-fn is_large(shown: &[([i32; 2], Vec4)], [x, y]: [i32; 2]) -> bool {
-    let around = || (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [x + dx, y + dy]));
-    around().all(|near| shown.binary_search_by_key(&[near[1], near[0]], |(at, _)| [at[1], at[0]]).is_ok())
+fn is_large(shown: &[([i32; 2], Vec4)], at: [i32; 2]) -> bool {
+    block(at).all(|near| is_shown(shown, near))
+}
+
+/// Whether the block around a pixel is within the whole triangle, and behind the near plane.
+fn is_covered(corners: &[(Vec4, Vec2); 3], at: [i32; 2]) -> bool {
+    block(at).all(|near| {
+        let shares = Footprint::new(corners, near).shares;
+        let depth: f64 = (0..3).map(|i| shares[i] * f64::from(corners[i].0.z)).sum();
+        shares.min_element() > 0.0 && depth < 1.0
+    })
+}
+
+/// Checks that the pixels that the triangle covers are there.
+fn check_coverage(corners: &[(Vec4, Vec2); 3], shown: &[([i32; 2], Vec4)]) -> Result<(), TestCaseError> {
+    for at in (0..(SIDE * SIDE) as usize).step_by(5).map(pixel) {
+        prop_assert!(is_shown(shown, at) || !is_covered(corners, at), "nothing is shown at {at:?}");
+    }
+    Ok(())
 }
 
 proptest! {
@@ -154,6 +181,7 @@ proptest! {
     #[test]
     fn derivatives_on_cut_triangles_are_those_of_the_whole_one(corners in wall()) {
         let shown = Triangle { corners, texture: None }.shown();
+        check_coverage(&corners, &shown)?;
         for &(at, found) in shown.iter().filter(|(at, _)| is_large(&shown, *at)) {
             let Footprint { steps, .. } = Footprint::new(&corners, at);
             let longer = steps[0].length().max(steps[1].length());
@@ -173,6 +201,7 @@ proptest! {
             magnification: Filter::Nearest, minification: Filter::Nearest, mip: MipFilter::Nearest, ..Sampler::default()
         };
         let shown = Triangle { corners, texture: Some((&texture, nearest)) }.shown();
+        check_coverage(&corners, &shown)?;
         for &(at, found) in shown.iter().filter(|(at, _)| is_large(&shown, *at)) {
             let footprint = Footprint::new(&corners, at);
             let ([longer, _], _) = footprint.sides();
