@@ -67,12 +67,28 @@ fn what_faces_show_is_chosen_by_flags() {
         image(&folder.path("o.png")).rgba
     };
     let plain = shown("");
-    for display in ["matcap", "base-color", "normal", "geometric-normal", "roughness", "alpha", "depth"] {
-        assert_ne!(shown(&format!("--display={display}")), plain, "{display}");
+    let before_wall = "--camera-position=0.5,0.5,-6 --camera-focal-point=0.5,0.5,0";
+    for (display, middle) in [
+        ("matcap", None),
+        ("base-color", Some([255, 0, 0])),
+        // The wall looks to -Z.
+        ("normal", Some([127, 127, 0])),
+        ("geometric-normal", Some([127, 127, 0])),
+        ("roughness", None),
+        ("alpha", Some([255; 3])),
+        ("depth", None),
+    ] {
+        let flag = format!("--display={display}");
+        assert_ne!(shown(&flag), plain, "{display}");
+        let rgba = shown(&format!("{flag} {before_wall}"));
+        let pixel = &rgba[4 * (60 * 20 + 30)..][..3];
+        assert!(middle.is_none_or(|middle| pixel == middle), "{display}: {pixel:?}");
     }
     assert_eq!(shown("--display=depth"), shown("--display-depth"), "two names");
     assert!(folder.said("corner.obj --display=heat --output o.png", 2).contains("base-color"), "a list");
-    assert_ne!(shown("--hide-nodes=0"), plain, "hidden by number");
+    let hidden = shown("--hide-nodes=0 --no-background");
+    assert!(hidden.chunks(4).all(|pixel| pixel == [0; 4]), "hidden by number");
+    assert!(shown("--no-background").chunks(4).any(|pixel| pixel[3] == 255), "and else it is there");
     let said = folder.failed("corner.obj --hide-nodes=gone --output o.png");
     assert!(said.contains("gone") && said.contains("--scene-hierarchy"), "{said}");
 }

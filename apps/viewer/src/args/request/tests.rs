@@ -3,8 +3,9 @@
 use clap::Parser;
 use trigon_camera::UpAxis;
 use trigon_math::DVec3;
+use trigon_scene::mesh::primitives;
 use trigon_scene::quality::{Preset, Quality};
-use trigon_scene::{MetalReflection, Outputs, ShadingModel, Shadows};
+use trigon_scene::{Material, MetalReflection, Outputs, Scene, ShadingModel, Shadows, render};
 
 use super::*;
 
@@ -171,6 +172,17 @@ fn edges_can_be_seen_on_a_dark_background() {
     }
     assert_eq!(edges("--edges --background-color=white"), usual, "dark on white");
     assert_eq!(edges("--edges --background-color=black --no-background"), usual, "no background");
+    let mut scene = Scene::new();
+    scene.add_object("cube", primitives::cube(1.0), Material::default());
+    for color in ["black", "navy", "white"] {
+        let settings = request(&format!("--style=hidden-line --background-color={color} --resolution=60,40"));
+        let settings = settings.expect("fine").settings;
+        let frame = render(&scene, &scene.overview(settings.aspect()), &settings).expect("drawn");
+        // The first pixel is background, which is what faces show, too; half of a line changes it by 67 levels or more.
+        let edges = frame.color.chunks(4).filter(|pixel| pixel[1].abs_diff(frame.color[1]) > 60).count();
+        // Nine edges of a dozen pixels or more.
+        assert!((60..1200).contains(&edges), "{edges} pixels of edges on {color}");
+    }
 }
 
 /// "unexpected argument '-1'" told nobody what was wrong.
