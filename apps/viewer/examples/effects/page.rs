@@ -93,9 +93,35 @@ from the middle of the lamp: only how much of it is visible is averaged over its
   wide as the penumbra of the caster that is nearest to the surface. A pyramid of the nearest depths bounds the search, so that surfaces with nothing before them
   pay a few look-ups. Only casters within the cone from the point to the lamp count, and texels are compared with the
   plane of the surface. Behind a straight edge that is exact; behind casters at several distances, each of which hides a part of the
-  lamp, it is an estimate.
+  lamp, it is an estimate. A map knows only what its lamp's middle sees: what a high roof hides from it casts no shadow at its foot.
 
 The image depends on nothing but the scene, the camera and the settings.
+
+    cargo bench -p trigon-study --bench occlusion -- shadows
+
+times all of them under a sun of two sizes (480×300 pixels, one sample each, one thread, AVX-512, 15 rounds in turn, medians; costs are above
+the sharp shadows of the same kind), and compares them with 1,024 rays in f64 at every pixel. Errors are root mean squares over all lit
+surfaces, of white in that light, where 1 is the light of a surface that faces the sun:
+
+| radius | shadows | exhibition | error | boxes | error | knots | error |
+|---|---|--:|--:|--:|--:|--:|--:|
+| 0.05 | sharp, by rays | 22.5 ms | | 4.3 ms | | 6.0 ms | |
+| | 16 rays at every sample | +499 % | 0.010 | +805 % | 0.002 | +621 % | 0.013 |
+| | 64 rays at every sample | +1995 % | 0.009 | +3375 % | 0.001 | +2723 % | 0.011 |
+| | 16 shared | +35 % | 0.031 | +3 % | 0.013 | +119 % | 0.027 |
+| | 64 shared (`high`) | +174 % | 0.028 | +61 % | 0.013 | +426 % | 0.018 |
+| | sharp, by maps of 2048 | 18.9 ms | | 4.9 ms | | 5.0 ms | |
+| | maps of 2048 | +75 % | 0.031 | +117 % | 0.006 | +114 % | 0.014 |
+| 0.2 | sharp, by rays | 27.9 ms | | 6.2 ms | | 6.2 ms | |
+| | 16 rays at every sample | +575 % | 0.013 | +743 % | 0.002 | +774 % | 0.019 |
+| | 64 rays at every sample | +2093 % | 0.010 | +3000 % | 0.001 | +3084 % | 0.012 |
+| | 16 shared | +52 % | 0.039 | +18 % | 0.011 | +160 % | 0.048 |
+| | 64 shared (`high`) | +239 % | 0.030 | +68 % | 0.007 | +539 % | 0.028 |
+| | sharp, by maps of 2048 | 13.1 ms | | 5.2 ms | | 4.5 ms | |
+| | maps of 2048 | +155 % | 0.032 | +296 % | 0.007 | +222 % | 0.028 |
+
+Maps are about as accurate as 64 shared rays here, and faster in two of the three scenes. What 64 rays at every sample leave lies on curved
+surfaces, and hardly depends on their number.
 
 ## What metals reflect
 

@@ -10,8 +10,8 @@
 //! Texels of the disc are looked up, and those that lie above the surface and within the cone at their own depth are
 //! casters. **Filter.** At the depth of the one that is nearest to the surface the cone is as wide as the penumbra. The
 //! fraction of the texels of this disc that are no casters is the fraction of the lamp that is visible. Behind a straight
-//! edge that is exact. (Fernando takes the mean of the depths. But the silhouette of what is round lies behind the surface
-//! that the lamp sees: behind balls the mean is off by half as much again, and umbras are too bright.)
+//! edge that is exact. (Fernando takes the mean of the depths. But what the lamp sees of something round lies nearer to it
+//! than the silhouette that casts the shadow, so the mean makes penumbras too wide and umbras too bright.)
 //!
 //! Each texel is compared with the plane of the surface at the texel's own place, so that a plane casts no shadow on
 //! itself however wide the disc is.

@@ -3,7 +3,8 @@
 //!
 //! `cargo bench -p trigon-study --bench occlusion [-- shadows] [FILE …]` draws the built-in scenes, or models. Each image of 480×300
 //! pixels has one sample a pixel and one thread. Times are those of the scene in its own light, all settings in turn.
-//! Errors are root mean squares over all surfaces, of white matt surfaces in light from all around.
+//! Errors are root mean squares over all surfaces, of white matt surfaces in light from all around, or over those that the sun lights,
+//! where 1 is the light of a surface that faces it.
 
 #![expect(clippy::print_stdout, reason = "a program that prints what it measures")]
 

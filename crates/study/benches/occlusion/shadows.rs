@@ -37,9 +37,14 @@ pub(crate) fn report(subject: &Subject) -> Result<(), Box<dyn Error>> {
         .with_transform(Transform::from_scale_rotation_translation(DVec3::ONE, turned, DVec3::ZERO));
     let (white, own) = (subject.in_white().in_light(sun.clone()), subject.in_light(sun));
     let surfaces = surfaces(&white)?;
+    let normals = surfaces.normals.iter().flatten();
+    let facing = normals.map(|normal| normal.as_dvec3().dot(TOWARDS.normalize()).max(0.0));
+    let facing: Vec<f64> = facing.collect();
     for radius in RADII {
         println!("  radius {radius}");
         let truth = truth::visibility(&surfaces, &white, TOWARDS.normalize(), f64::from(radius));
+        let truth: Vec<Option<f64>> =
+            truth.iter().zip(&facing).map(|(visible, facing)| Some((*visible)? * facing)).collect();
         for shadows in [Shadows::Rays].into_iter().chain(MAPS.map(|resolution| Shadows::Maps { resolution }))
         {
             let rays: &[_] = if shadows == Shadows::Rays { &RAYS } else { &RAYS[..1] };
@@ -49,7 +54,9 @@ pub(crate) fn report(subject: &Subject) -> Result<(), Box<dyn Error>> {
             let costs = costs(&own, &kinds, Effect::SoftShadows)?;
             println!("    {shadows:?}, sharp: {:.2} ms", costs[0].milliseconds);
             for (kind, cost) in kinds.iter().zip(costs).skip(1) {
-                let error = error(&visible(&white, kind)?, &truth);
+                let light =
+                    visible(&white, kind)?.into_iter().zip(&facing).map(|(visible, facing)| visible * facing);
+                let error = error(&light.collect::<Vec<_>>(), &truth);
                 let SoftShadows { rays, sampling, .. } = kind.effects.soft_shadows;
                 let more = (cost.ratio - 1.0) * 100.0;
                 println!(
