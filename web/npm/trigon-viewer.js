@@ -46,6 +46,7 @@ export class TrigonViewerElement extends HTMLElement {
   #frame = null;
   #time = 0;
   #isFitted = true;
+  #views = 0;
   #shown = null;
 
   constructor() {
@@ -130,16 +131,21 @@ export class TrigonViewerElement extends HTMLElement {
     return this.#ask('explain', { x: Math.floor(x * part), y: Math.floor(y * part) });
   }
 
-  /** The whole image once it is drawn, at once if it is. */
+  /** The whole image once it is drawn, at once if it is. Rejects with an error that is reported before. */
   settled() {
     if (this.#shown?.isDraft === false) return Promise.resolve(this.#shown);
-    return new Promise((resolve) => {
-      const wait = ({ detail }) => {
-        if (detail.isDraft) return;
-        this.removeEventListener('render', wait);
-        resolve(detail);
+    return new Promise((resolve, reject) => {
+      const end = (settle, detail) => {
+        this.removeEventListener('render', rendered);
+        this.removeEventListener('error', failed);
+        settle(detail);
       };
-      this.addEventListener('render', wait);
+      const rendered = ({ detail }) => {
+        if (!detail.isDraft && this.#shown === detail) end(resolve, detail);
+      };
+      const failed = ({ detail }) => end(reject, detail);
+      this.addEventListener('render', rendered);
+      this.addEventListener('error', failed);
     });
   }
 
@@ -234,14 +240,16 @@ export class TrigonViewerElement extends HTMLElement {
 
   // Images
 
-  #show({ bytes, width, height, isDraft, time }) {
+  #show({ view, bytes, width, height, isDraft, time }) {
     if (this.#canvas.width !== width || this.#canvas.height !== height) {
       [this.#canvas.width, this.#canvas.height] = [width, height];
     }
     this.#canvas.getContext('2d').putImageData(new ImageData(bytes, width, height), 0, 0);
     this.#poster.hidden = true;
-    this.#shown = { width, height, isDraft, time };
-    this.dispatchEvent(new CustomEvent('render', { detail: this.#shown }));
+    const detail = { width, height, isDraft, time };
+    // The worker may have been drawing the view before.
+    if (view === this.#views) this.#shown = detail;
+    this.dispatchEvent(new CustomEvent('render', { detail }));
   }
 
   #measure() {
@@ -259,7 +267,8 @@ export class TrigonViewerElement extends HTMLElement {
     this.#shown = null;
     const resized = [['resize', ...this.#size]];
     if (this.#isFitted && !this.hasAttribute('camera-orbit')) resized.push(['fit']);
-    this.#worker.postMessage({ request: 'view', size: this.#size, calls: [...resized, ...calls], isMoving });
+    this.#views += 1;
+    this.#worker.postMessage({ request: 'view', view: this.#views, size: this.#size, calls: [...resized, ...calls], isMoving });
   }
 
   /** The camera was moved by hand. */

@@ -15,6 +15,8 @@ let [width, height] = [1, 1];
 let scale = 0;
 let isDraftNext = false;
 let rest = 0;
+/** The number of the last view that was requested. */
+let view = 0;
 let timer = null;
 
 function send(message, transfer = []) {
@@ -29,7 +31,7 @@ function show(isDraft) {
   const time = performance.now() - began;
   if (isDraft && time > DRAFT && scale + 1 < SCALES.length) scale += 1;
   if (isDraft && time < DRAFT / 3 && scale > 0) scale -= 1;
-  send({ event: 'image', bytes, width: size[0], height: size[1], isDraft, time }, [bytes.buffer]);
+  send({ event: 'image', view, bytes, width: size[0], height: size[1], isDraft, time }, [bytes.buffer]);
 }
 
 // Messages that have arrived meanwhile come first: of many movements only the last one is drawn.
@@ -88,6 +90,7 @@ onmessage = async ({ data }) => {
   const { request, id } = data;
   if (request === 'view') {
     try {
+      view = data.view;
       if (data.size) [width, height] = data.size;
       for (const [method, ...parameters] of data.calls ?? []) session.call(method, ...parameters);
       plan(data.isMoving);
