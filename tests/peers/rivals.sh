@@ -17,21 +17,29 @@ workloads="W2 W3 W4 W5 W6"
 # The peers with their settings of threads for one and for two cores.
 one_core="llvmpipe-debian:1 llvmpipe-new:1 lavapipe-new:1 swiftshader:1 euc:1 retrofire:1"
 two_cores="llvmpipe-debian:2+1 llvmpipe-new:2+1 lavapipe-new:2+1 swiftshader:2"
+supersampled="llvmpipe-new-2x2 llvmpipe-new-4x4"
 
 images() {
     mkdir -p "$1"
     export PEERS_PNG=$(cd "$1" && pwd) PEERS_REPS=1
     for each in $one_core; do one "${each%%:*}" "${each#*:}" $workloads >&2; done
+    for each in $supersampled; do one $each 1 W2 W3 W4 W5 >&2; done
 }
 
 # trigon's lines have the same form as the peers': renderer,workload,threads,work,ms,ms,...
 own() {
     local program=target/release/examples/workloads pin=""
     [ "$1" = 1 ] && pin="taskset -c 0"
+    local options="--threads $1 --repetitions $PEERS_REPS --samples $PEERS_SAMPLES"
     for preset in draft standard high reference; do
-        $pin $program --threads "$1" --repetitions "$PEERS_REPS" --preset $preset --samples "$PEERS_SAMPLES" W2 W3 W4 W5 >&2
+        $pin $program $options --preset $preset W2 W3 W4 W5 >&2
     done
-    $pin $program --threads "$1" --repetitions "$PEERS_REPS" --samples "$PEERS_SAMPLES" W6 >&2
+    $pin $program $options W6 >&2
+    # Where the best level is another one, that of most machines, too.
+    if grep -qm1 avx512f /proc/cpuinfo; then
+        $pin $program $options --simd avx2 --preset draft W2 W3 W4 W5 >&2
+        $pin $program $options --simd avx2 W6 >&2
+    fi
 }
 
 # Each frame warms up within its process; rounds take turns, so that a slow minute of the machine falls on all.
@@ -40,6 +48,7 @@ times() {
     export PEERS_SAMPLES=$(mktemp) PEERS_REPS=5
     for _ in $(seq "$1"); do
         for each in $one_core $two_cores; do (one "${each%%:*}" "${each#*:}" $workloads) >&2; done
+        for each in $supersampled; do (one $each 1 W2 W3 W4 W5; one $each 2+1 W2 W3 W4 W5) >&2; done
         own 1
         own 2
     done

@@ -40,7 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             if image.dimensions() != (scene.size.x, scene.size.y) {
                 return Err(format!("{} is not of the workload's size", path.display()).into());
             }
-            judge(renderer, image.into_raw().as_chunks().0, is_centred);
+            // Means of several samples have no colour at the centre.
+            let is_supersampled = ["-2x2", "-4x4"].iter().any(|end| renderer.ends_with(end));
+            judge(renderer, image.into_raw().as_chunks().0, is_centred && !is_supersampled);
         }
         for (renderer, scene) in own(&scene) {
             let mut canvas = Canvas::with_own_pixels(Rasterizer::default(), &scene)?;

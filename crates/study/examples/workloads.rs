@@ -158,7 +158,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     if arguments.csv {
         println!("{}", Line::CSV_HEADER);
     }
-    let renderer = arguments.preset.map_or_else(|| "trigon".to_owned(), |preset| format!("trigon-{preset}"));
+    let mut renderer =
+        arguments.preset.map_or_else(|| "trigon".to_owned(), |preset| format!("trigon-{preset}"));
+    if let Some(level) = arguments.simd {
+        renderer.push_str(&format!("-{level}"));
+    }
     for workload in arguments.chosen()? {
         let scene = workload.scene();
         let scene = arguments.preset.map_or(scene.clone(), |preset| scene.at_quality(preset.quality()));

@@ -41,10 +41,12 @@ pub mod rivals;
 pub mod same_bytes;
 pub mod shading;
 pub mod shadow;
+pub mod sittings;
 pub mod storage;
 pub mod texture;
 pub mod threads;
 pub mod transparency;
+pub mod truth;
 pub mod visibility;
 pub mod workloads;
 

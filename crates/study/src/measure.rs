@@ -2,10 +2,12 @@
 
 use std::time::Instant;
 
+use crate::sittings;
+
 /// The results of repeated runs, in the caller's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// A quarter of the runs was shorter.
+    /// A quarter of the runs was shorter. Those of all sittings count.
     pub low: f64,
     /// The run in the middle.
     pub median: f64,
@@ -44,25 +46,30 @@ const SITTING: usize = 4;
 /// The most that memory is allocated anew.
 const MOST_SITTINGS: usize = 3;
 
-/// The nanoseconds of each candidate. All run once in each round, so that other load on the machine affects
-/// all of them alike. An uncounted first round fills caches.
+/// The nanoseconds of each candidate. All run once in each round, in an order that changes from round to round, so that other
+/// load on the machine affects all of them alike, and none always follows the same one. An uncounted first round fills caches.
 pub fn interleaved(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>]) -> Vec<Spread> {
     let mut times = vec![Vec::new(); candidates.len()];
     run_rounds(rounds, candidates, &mut times);
-    times.into_iter().map(Spread::of).collect()
+    spreads(times)
 }
 
 /// Appends the nanoseconds of each candidate in each round but the first.
 fn run_rounds(rounds: usize, candidates: &mut [Box<dyn FnMut() + '_>], times: &mut [Vec<f64>]) {
     for round in 0..=rounds.max(1) {
-        for (times, candidate) in times.iter_mut().zip(&mut *candidates) {
+        for index in sittings::order(candidates.len()) {
             let start = Instant::now();
-            candidate();
+            candidates[index]();
             if round > 0 {
-                times.push(start.elapsed().as_nanos() as f64);
+                times[index].push(start.elapsed().as_nanos() as f64);
             }
         }
     }
+}
+
+/// The spreads of the times of each candidate, with those of earlier sittings.
+fn spreads(times: Vec<Vec<f64>>) -> Vec<Spread> {
+    sittings::pooled(times).into_iter().map(Spread::of).collect()
 }
 
 /// The nanoseconds that each variant takes, in turn.
@@ -74,19 +81,19 @@ pub(crate) fn nanoseconds<'a, V: Copy>(
     variants: &[V],
     mut run: impl FnMut(V) -> Box<dyn FnMut() + 'a>,
 ) -> Vec<Spread> {
-    let sittings = (rounds / SITTING).clamp(1, MOST_SITTINGS);
+    let makings = (rounds / SITTING).clamp(1, MOST_SITTINGS);
     let mut times = vec![Vec::new(); variants.len()];
-    // Those of the last sitting still hold their memory while the next ones are made.
+    // Those of the last time still hold their memory while the next ones are made.
     let mut candidates: Vec<Box<dyn FnMut() + 'a>> = Vec::new();
-    for _ in 0..sittings {
+    for _ in 0..makings {
         candidates = {
             let next = variants.iter().map(|&variant| run(variant)).collect();
             drop(candidates);
             next
         };
-        run_rounds(rounds.div_ceil(sittings), &mut candidates, &mut times);
+        run_rounds(rounds.div_ceil(makings), &mut candidates, &mut times);
     }
-    times.into_iter().map(Spread::of).collect()
+    spreads(times)
 }
 
 #[cfg(test)]

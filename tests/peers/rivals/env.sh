@@ -28,7 +28,9 @@ with_new() {
 one() {
     local peer=$1 threads=$2 pin="" lp=0; shift 2
     case $threads in 1) pin="taskset -c 0";; 1+1) lp=1;; 2+1) lp=2;; esac
-    export PEERS_NAME=$peer PEERS_THREADS=$threads
+    export PEERS_NAME=$peer PEERS_THREADS=$threads PEERS_SUPERSAMPLES=1
+    # llvmpipe-new-4x4: 4×4 samples for each pixel, all of them shaded.
+    case $peer in *-2x2|*-4x4) PEERS_SUPERSAMPLES=${peer: -1}; peer=${peer%-?x?};; esac
     case $peer in
         llvmpipe-debian) LP_NUM_THREADS=$lp $pin "$BIN/peer-gl" "$@";;
         llvmpipe-new)    export LP_NUM_THREADS=$lp; [ -n "$pin" ] && pin_self; with_new "$BIN/peer-gl" "$@"; unpin_self;;

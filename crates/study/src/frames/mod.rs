@@ -1,24 +1,30 @@
-//! What does a whole image's accuracy cost? Six scenes with all combinations of samples and shading, compared
-//! with a [`Truth`]; and a time budget on flights past them.
+//! What does a whole image's accuracy cost? Twelve scenes with all combinations of samples and shadows, compared with a
+//! [`Truth`]; and a time budget on flights past them.
 
 mod cases;
 mod certified;
+mod scenes;
 
 use std::time::Duration;
 
+use crate::truth::Truth;
 use trigon_scene::quality::{Choice, Preset, Quality, TimeBudget, rmse};
-use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, Shadows, SimdLevel};
+use trigon_scene::{Frame, RenderError, Renderer, Sampler, Scene, ShadingModel, Shadows, SimdLevel};
 
-pub use cases::{FrameCase, Truth};
+pub use cases::FrameCase;
 pub use certified::{Certified, Prover};
 
-/// The variants of every case: all numbers of samples, with light once per triangle, per vertex and per
-/// pixel. The presets are among them.
+/// The variants of every case: all numbers of samples with light in each pixel, and a few with light once per triangle or
+/// vertex. The presets are among them.
 #[must_use]
 pub fn variants() -> Vec<Quality> {
-    let models = [ShadingModel::Flat, ShadingModel::Gouraud, ShadingModel::Phong];
-    let shaded = |shading| sampled().into_iter().map(move |quality| Quality { shading, ..quality });
-    models.into_iter().flat_map(shaded).collect()
+    let few = |model| {
+        let few =
+            sampled().into_iter().filter(|quality| quality.samples == 1 && quality.samples_per_axis != 3);
+        few.map(move |quality| Quality { shading: model, ..quality })
+    };
+    let coarse = [ShadingModel::Flat, ShadingModel::Gouraud].into_iter().flat_map(few);
+    sampled().into_iter().chain(coarse).collect()
 }
 
 /// The additional variants for scenes with shadows: those of [`variants`] with maps instead of rays, and the
@@ -30,7 +36,9 @@ pub fn other_shadows() -> Vec<Quality> {
         let shadows = if quality.shadows == Shadows::Rays { by_maps } else { Shadows::Rays };
         Quality { shadows, ..quality }
     };
-    sampled().into_iter().map(other).collect()
+    // More samples in each hardly change a shadow.
+    let few = sampled().into_iter().filter(|quality| quality.samples <= 4);
+    few.map(other).collect()
 }
 
 /// All numbers of samples, with what the presets choose beside them.
@@ -48,6 +56,13 @@ fn sampled() -> Vec<Quality> {
         })
     };
     (1..=4).flat_map(of_axis).collect()
+}
+
+/// The quality with the shadows that a preset of as many samples would have.
+#[must_use]
+pub fn usual(quality: Quality) -> Quality {
+    let like = if quality.samples_per_axis > 2 { Preset::High } else { Preset::Standard };
+    Quality { shadows: like.quality().shadows, ..quality }
 }
 
 /// The name of a variant in tables and plots: its samples, what is unusual about it, and the preset if it is one.
@@ -80,15 +95,31 @@ impl Repeated {
     /// Nothing is drawn yet.
     #[must_use]
     pub fn new(case: FrameCase, size: [u32; 2], quality: Quality) -> Self {
+        Self::of(case, case.scene(), size, quality)
+    }
+
+    /// Of a scene that was made before.
+    #[must_use]
+    pub fn of(case: FrameCase, scene: Scene, size: [u32; 2], quality: Quality) -> Self {
         let mut settings = case.settings(size);
         quality.apply(&mut settings);
-        Self { case, scene: case.scene(), renderer: Renderer::new(settings), frame: Frame::default() }
+        Self { case, scene, renderer: Renderer::new(settings), frame: Frame::default() }
     }
 
     /// With these SIMD instructions.
     #[must_use]
     pub fn at_level(mut self, level: SimdLevel) -> Self {
         self.renderer.settings_mut().simd = Some(level);
+        self
+    }
+
+    /// With another filter of all textures of colours.
+    #[must_use]
+    pub fn with_sampler(mut self, sampler: Sampler) -> Self {
+        let bindings = self.scene.materials.iter_mut();
+        bindings.filter_map(|(_, material)| material.base_color_texture.as_mut()).for_each(|binding| {
+            binding.sampler = sampler;
+        });
         self
     }
 
@@ -103,12 +134,16 @@ impl Repeated {
     }
 }
 
-/// The errors of several qualities, relative to the [`Truth`], at the start of a case's flight.
+/// The errors of several qualities, relative to the truth, at the start of a case's flight.
 ///
 /// # Errors
 /// A size that cannot be drawn.
-pub fn errors(case: FrameCase, size: [u32; 2], qualities: &[Quality]) -> Result<Vec<f64>, RenderError> {
-    let truth = Truth::new(case, size)?;
+pub fn errors(
+    case: FrameCase,
+    truth: &Truth,
+    size: [u32; 2],
+    qualities: &[Quality],
+) -> Result<Vec<f64>, RenderError> {
     let error = |&quality: &Quality| Ok(truth.error(Repeated::new(case, size, quality).draw(0.0)?));
     qualities.iter().map(error).collect()
 }
@@ -156,6 +191,43 @@ pub fn fly(
         steps.push(Step { choice, drawing, time, error });
     }
     Ok(steps)
+}
+
+/// Draws frames of a case that does not move, each within a time, and returns the chosen qualities and the times.
+///
+/// # Errors
+/// A size that cannot be drawn.
+pub fn stay(
+    case: FrameCase,
+    size: [u32; 2],
+    limit: Duration,
+    frames: usize,
+    clock: &mut dyn FnMut() -> Duration,
+) -> Result<Vec<(Quality, Duration)>, RenderError> {
+    let (scene, settings) = (case.scene(), case.settings(size));
+    let camera = case.camera(&scene, settings.aspect(), 0.0);
+    let (mut renderer, mut budget) = (Renderer::new(settings), TimeBudget::new(limit));
+    budget.calibrate(&mut renderer, &scene, &camera, clock)?;
+    let mut image = Frame::default();
+    let mut draw = |_| {
+        let start = clock();
+        let choice = budget.render_into(&mut renderer, &scene, &camera, clock, &mut image)?;
+        let drawing = clock().saturating_sub(start);
+        budget.look_again(&mut renderer, &scene, &camera, limit.saturating_sub(drawing), clock)?;
+        Ok((recorded(choice.chosen.quality, case), drawing))
+    };
+    (0..frames).map(&mut draw).collect()
+}
+
+/// The quality as the study names it: a budget leaves out of a quality what a frame does not request.
+fn recorded(quality: Quality, case: FrameCase) -> Quality {
+    let like = usual(quality);
+    let shadows = if case.has_shadows() { quality.shadows } else { like.shadows };
+    let all = sampled();
+    let same = all
+        .iter()
+        .find(|one| (one.samples_per_axis, one.samples) == (quality.samples_per_axis, quality.samples));
+    Quality { shadows, shading: quality.shading, ..*same.expect("all numbers of samples are there") }
 }
 
 /// The results of a flight: fractions of all its frames.

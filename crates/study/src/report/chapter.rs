@@ -25,11 +25,11 @@ impl Effort {
         if self == Self::Full { full } else { quick }
     }
 
-    /// The number of timed runs.
+    /// The number of timed runs in a sitting.
     pub(super) fn rounds(self) -> usize {
         match self {
-            Self::Quick => 5,
-            Self::Full => 15,
+            Self::Quick => 3,
+            Self::Full => 3,
             #[cfg(test)]
             Self::Once => 1,
         }

@@ -5,8 +5,14 @@
 
 use super::chapter::{Conditions, Row, number};
 
-/// Ratios this near to 1 say nothing: times vary by as much from run to run.
+/// Ratios of times this near to 1 say nothing: times vary by as much from run to run.
 const SAME: f64 = 0.15;
+
+/// Whether a column holds times; errors and counts do not vary.
+pub(super) fn is_time(quantity: &str) -> bool {
+    let first = quantity.split([' ', ',']).next().unwrap_or_default();
+    ["ns", "µs", "ms"].contains(&first) || quantity.ends_with(", ns")
+}
 
 /// Two rows of a chapter, and what is compared.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +102,7 @@ impl Headline {
                 row.value(quantity)
                     .unwrap_or_else(|| panic!("{self:?} compares what was measured: {quantity}"))
             });
-            format!("{quantity}: {}", ratio(a, b))
+            format!("{quantity}: {}", ratio(a, b, is_time(quantity)))
         });
         let compared: Vec<String> = compared.collect();
         let mut text =
@@ -116,12 +122,14 @@ fn differing(one: &Conditions, other: &Conditions) -> Vec<usize> {
 }
 
 /// How many times `b` `a` is, with both.
-fn ratio(a: f64, b: f64) -> String {
+fn ratio(a: f64, b: f64, is_time: bool) -> String {
     let both = format!("({} / {})", number(a), number(b));
-    if a == b || (a / b - 1.0).abs() <= SAME {
-        format!("no measurable difference {both}")
+    if a == b {
+        format!("the same {both}")
     } else if a == 0.0 || b == 0.0 {
         format!("{} instead of {}", number(a), number(b))
+    } else if is_time && (a / b - 1.0).abs() <= SAME {
+        format!("no measurable difference {both}")
     } else {
         format!("{}× {both}", number(a / b))
     }
@@ -150,11 +158,15 @@ mod tests {
     }
 
     #[test]
-    fn ratios_within_15_percent_of_1_are_none() {
+    fn ratios_of_times_within_15_percent_of_1_are_none() {
         assert!(sentence(["c", "b"]).ends_with("no measurable difference (2.20 / 2.00)."), "1.10");
         assert!(sentence(["b", "c"]).ends_with("no measurable difference (2.00 / 2.20)."), "0.91");
         assert!(sentence(["a", "e"]).ends_with("3.00 instead of 0."), "nothing divides by 0");
         assert!(sentence(["e", "a"]).ends_with("0 instead of 3.00."), "and no factor is 0");
+        assert_eq!(ratio(2.2, 2.0, false), "1.10× (2.20 / 2.00)", "an error does not vary");
+        assert_eq!(ratio(2.0, 2.0, false), "the same (2.00 / 2.00)");
+        let times = ["ms per frame", "ns per look-up", "µs per frame", "ms, 1 thread", "picking an edge, ns"];
+        assert!(times.into_iter().all(is_time) && !is_time("misordered pixels, ‰"));
     }
 
     #[test]

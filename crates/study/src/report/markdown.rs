@@ -10,29 +10,26 @@ use image::RgbImage;
 use image::codecs::png::PngEncoder;
 use trigon_classic::Field;
 
-use super::chapter::{Answer, Effort};
-use super::chapter::{Conditions, Row, Value, Warmth, number};
+use super::chapter::{Answer, Conditions, Row, Value, Warmth, number};
+use super::header::Header;
 
 /// How to read the sentences.
 const RULES: &str = "Each sentence divides one row of the tables below by another one; the two figures stand in brackets. The \
                      two rows differ in what is printed in bold and in nothing else that is recorded: algorithm, \
                      threads, geometry, resolution, and whether memory, threads and trees are kept from run to run \
-                     (warm). What lies within 15 % of 1 is no measurable difference. All rows with their conditions are \
-                     in `results.csv` beside the report (here `docs/accuracy.csv`), and a test divides them \
-                     again.\n\n";
+                     (warm). Times within 15 % of each other are no measurable difference; errors and counts are compared exactly. All \
+                     rows with their conditions are in `accuracy.csv`, and a test divides them again.\n\n";
 
-/// The whole report.
-pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
-    let mut text = String::from("# What accuracy costs in time\n\n");
-    let command = effort.pick("trigon-study --quick", "trigon-study");
+/// All tables, and the sentences about them.
+pub(super) fn appendix(header: &Header, answers: &[Answer]) -> String {
+    let mut text = String::from("# What accuracy costs in time: all tables\n\n");
     let _ = writeln!(
         text,
-        "Made by `{command}`. Tests hold the errors, which are the same on every machine, with two exceptions: fused operations and \
-         estimated reciprocals are the processor's, and predictions of times and errors follow from measured times. Times were measured by that \
-         command on {}, on one thread unless told otherwise: \
-         medians of runs in turn, with memory allocated anew up to three times. The algorithms and their sources \
-         are in `crates/study/src`, a folder for each question.\n",
-        processor()
+        "[What a millisecond buys](accuracy.md) sums up what follows. {} Tests hold the errors, which are the same on every machine, with two \
+         exceptions: fused operations and estimated reciprocals are the processor's, and predictions of times and errors follow from \
+         measured times. Everything runs on one thread unless told otherwise. Brackets hold the quartiles of all runs. The algorithms and \
+         their sources are in `crates/study/src`, a folder for each question.\n",
+        header.words()
     );
     text.push_str("## In short\n\n");
     text.push_str(RULES);
@@ -52,14 +49,6 @@ pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
 fn anchor(title: &str) -> String {
     let letters = title.chars().filter(|c| c.is_alphanumeric() || *c == ' ' || *c == '-');
     letters.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
-}
-
-fn processor() -> String {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    let model = model.map_or("a processor that does not tell its name", |(_, name)| name.trim());
-    format!("{model} ({threads} threads)")
 }
 
 pub(super) fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut String) {

@@ -111,6 +111,13 @@ pub fn timed() -> Vec<Timed> {
     lines(include_str!("../../rivals/times.csv")).map(|line| Timed::read(line).expect(line)).collect()
 }
 
+/// When, of which commit and on which machine the times were measured.
+#[must_use]
+pub fn timed_on() -> &'static str {
+    let line = include_str!("../../rivals/times.csv").lines().next().unwrap_or_default();
+    line.trim_start_matches("# ")
+}
+
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.starts_with('#')).skip(1)
 }

@@ -95,8 +95,11 @@ fn every_renderer_has_its_rows() {
         assert_eq!(of(renderer), 4, "{renderer}: no multisampling");
     }
     for one in timed() {
-        let has_errors =
-            measured.iter().any(|other| (&other.renderer, &other.workload) == (&one.renderer, &one.workload));
+        // At every level trigon draws the same bytes.
+        let renderer = one.renderer.trim_end_matches("-avx2");
+        let has_errors = measured
+            .iter()
+            .any(|other| (other.renderer.as_str(), &other.workload) == (renderer, &one.workload));
         assert!(has_errors && one.quarters.is_sorted(), "{one:?}");
     }
     for line in measured.iter().map(Measured::line) {

@@ -5,11 +5,11 @@ use crate::line::{Line, LineErrors, Outline, OutlineErrors, star};
 use trigon_classic::Field;
 
 const WRONG: &str = "strays and gaps, ‰ of steps";
-const RMSE: &str = "RMSE of coverage";
-const TIME: &str = "ns per pixel of length";
+pub(in crate::report) const RMSE: &str = "RMSE of coverage";
+pub(in crate::report) const TIME: &str = "ns per pixel of length";
 const OUTSIDE: &str = "outline beside the fill, ‰";
 
-const CASE: &str = "a star of lines";
+pub(in crate::report) const CASE: &str = "a star of lines";
 const OUTLINES: &str = "outlines of triangles";
 
 pub(super) fn measure(effort: Effort) -> Chapter {

@@ -1,10 +1,11 @@
 //! The chapters: for each question, the variants and their measurements.
 
 mod depth;
+pub(super) mod effects;
 mod fill;
-mod frames;
+pub(super) mod frames;
 mod interpolation;
-mod line;
+pub(super) mod line;
 pub(super) mod rivals;
 mod same_bytes;
 mod shading;
@@ -23,10 +24,10 @@ use super::plot::Plot;
 use crate::measure::{Spread, interleaved, nanoseconds};
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 /// The chapters in their order.
-pub(super) const CHAPTERS: [Question; 14] = [
+pub(super) const CHAPTERS: [Question; 15] = [
     Question { name: "fill", measure: fill::measure, headlines: fill::headlines },
     Question { name: "visibility", measure: visibility::measure, headlines: visibility::headlines },
     Question { name: "line", measure: line::measure, headlines: line::headlines },
@@ -40,5 +41,6 @@ pub(super) const CHAPTERS: [Question; 14] = [
     Question { name: "storage", measure: storage::measure, headlines: storage::headlines },
     Question { name: "threads", measure: threads::measure, headlines: threads::headlines },
     Question { name: "frames", measure: frames::measure, headlines: frames::headlines },
+    Question { name: "effects", measure: effects::measure, headlines: effects::headlines },
     Question { name: "rivals", measure: rivals::measure, headlines: rivals::headlines },
 ];

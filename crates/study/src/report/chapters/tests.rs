@@ -3,14 +3,14 @@
 use super::*;
 use crate::report::chapter::Answer;
 use crate::report::markdown::{write_csv, write_table};
-use crate::report::published::{fields, read};
+use crate::report::published::{fields, read, records};
 use std::fs;
 use std::path::Path;
 
 /// The rows of a question as they were recorded.
-fn rows(question: &str) -> Vec<Row> {
+pub(in crate::report) fn rows(question: &str) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
-    for line in read("accuracy.csv").lines().skip(1) {
+    for line in &records() {
         let [of, case, variant, algorithm, threads, geometry, resolution, warmth, quantity, value, low, high] =
             <[String; 12]>::try_from(fields(line)).expect("as the report is written");
         if of != question {
@@ -41,7 +41,7 @@ fn rows(question: &str) -> Vec<Row> {
 
 /// The part of the report about a question: all of its lines but empty rows of tables.
 fn chapter(title: &str) -> String {
-    let text = read("accuracy.md");
+    let text = read("accuracy-appendix.md");
     let (_, text) = text.split_once(&format!("\n## {title}\n")).unwrap();
     // What refuses a scene has a row in the table, but no figure to record.
     let is_recorded =
@@ -56,7 +56,7 @@ fn is_dash_or_blank(cell: &str) -> bool {
 
 /// The title of each question that has rows, from the list at the top of the report.
 fn titles() -> Vec<String> {
-    let text = read("accuracy.md");
+    let text = read("accuracy-appendix.md");
     let parts = text.split("\n## ").skip(1).map(|part| part.lines().next().unwrap().to_owned());
     parts.filter(|title| title != "In short").collect()
 }
@@ -91,6 +91,7 @@ fn findings_are_those_of_the_rows() {
             assert!(published.contains(&format!("- {sentence}\n")), "{question} says: {sentence}");
         }
     };
+    said("rivals", &rivals::findings(&rows("rivals")));
     said("fill", &fill::findings(&rows("fill")));
     said("line", &line::findings(&rows("line")));
     said("frames", &frames::findings(&rows("frames")));
@@ -108,24 +109,26 @@ fn rows_are_written_as_they_were_recorded() {
     };
     let mut written = Vec::new();
     write_csv(&CHAPTERS.iter().map(answer).collect::<Vec<_>>(), &mut written).unwrap();
-    let (written, recorded) = (String::from_utf8(written).unwrap(), read("accuracy.csv"));
-    for (written, recorded) in written.lines().zip(recorded.lines()) {
+    let (written, recorded) = (String::from_utf8(written).unwrap(), records());
+    for (written, recorded) in written.lines().skip(1).zip(&recorded) {
         assert_eq!(written, recorded);
     }
-    assert_eq!(written.lines().count(), recorded.lines().count(), "every row");
+    assert_eq!(written.lines().count(), recorded.len() + 1, "every row");
 }
 
 /// The means of the recorded scenes are the recorded means.
 #[test]
 fn qualities_have_their_means_over_all_scenes() {
     let recorded = rows("frames");
-    let means = frames::means(&recorded, [480, 288]);
-    assert!(means.len() >= 60, "{} qualities", means.len());
-    for mean in means {
-        let same = recorded.iter().find(|row| row.case == mean.case && row.variant == mean.variant);
-        for (mean, recorded) in mean.values.iter().zip(&same.expect("it was recorded").values) {
-            assert_eq!(mean.quantity, recorded.quantity);
-            assert!((mean.value / recorded.value - 1.0).abs() < 1e-9, "{mean:?} and {recorded:?}");
+    for sweep in [frames::Sweep::small([480, 288]), frames::Sweep::large([1920, 1080])] {
+        let means = sweep.mean_rows(&recorded);
+        assert!(means.len() >= 15, "{} qualities", means.len());
+        for mean in means {
+            let same = recorded.iter().find(|row| row.case == mean.case && row.variant == mean.variant);
+            for (mean, recorded) in mean.values.iter().zip(&same.expect("it was recorded").values) {
+                assert_eq!(mean.quantity, recorded.quantity);
+                assert!((mean.value / recorded.value - 1.0).abs() < 1e-9, "{mean:?} and {recorded:?}");
+            }
         }
     }
 }

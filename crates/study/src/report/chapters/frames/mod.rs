@@ -1,133 +1,66 @@
 //! What does a whole image's accuracy cost?
 
-use super::*;
-use crate::frames::{
-    FlightSummary, FrameCase, Prover, Repeated, Step, errors, fly, name, other_shadows, variants,
-};
-use crate::workloads::Workload;
-use std::time::{Duration, Instant};
-use trigon_classic::Field;
-use trigon_math::elementary;
-use trigon_scene::SimdLevel;
-use trigon_scene::quality::{Preset, Quality};
+pub(in crate::report) mod budget;
+pub(in crate::report) mod sweep;
 
-const RMSE: &str = "RMSE in linear light";
-const TIME: &str = "ms per frame";
-const IN_TIME: &str = "in time, %";
-const TIMES: &str = "times foreseen within a fifth, %";
-const FORESEEN: &str = "errors foreseen within a fifth, %";
-const WORST: &str = "worst miss of an error, %";
+use super::*;
+use crate::frames::{FrameCase, Prover, Repeated, name};
+use crate::sittings;
+use crate::workloads::Workload;
+use trigon_classic::Field;
+use trigon_scene::SimdLevel;
+use trigon_scene::quality::Preset;
+
+pub(super) use sweep::leave_out_what_is_beaten;
+pub(in crate::report) use sweep::{RMSE, Sweep, TIME};
+
 const CERTIFIED: &str = "certified, %";
 const SEES: &str = "may see something else, %";
 const OTHER: &str = "bytes that differ";
 
-const LIMIT: Duration = Duration::from_millis(16);
-const FLIGHT: &str = "a flight with a budget of 16 ms";
 const LEVELS: &str = "the built-in scene by vector instructions";
 const PROOFS: &str = "workloads, drawn and proven";
 const DRAWN: &str = "drawn";
 const PROVEN: &str = "drawn and proven";
-const MEANS: &str = "all scenes, geometric means";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let size = effort.pick([120, 72], [480, 288]);
-    let mut rows: Vec<Row> = FrameCase::ALL.into_iter().flat_map(|case| front(case, size, effort)).collect();
-    rows.extend(means(&rows, size));
+    let large = effort.pick([240, 136], [1920, 1080]);
+    let mut rows = Vec::new();
+    let small = Sweep::small(size);
+    for sweep in [effort.pick(small.brief(), Sweep::small(size)), Sweep::large(large)] {
+        rows.extend(sweep.measure(effort));
+    }
     leave_out_what_is_beaten(&mut rows);
-    rows.extend(FrameCase::ALL.map(|case| flight(case, size, effort)));
+    if sittings::is_last() {
+        rows.extend(budget::rows(size, effort));
+    }
     rows.extend(levels(size, effort));
     rows.extend(proofs(effort));
-    let plot = |(name, case): (&'static str, FrameCase)| Plot::trade(name, &rows, case.name(), [TIME, RMSE]);
     Chapter {
         name: "frames",
         title: "Which preset should one use?",
-        text: "Whole images of six scenes at 60 qualities, and at 20 more where there are shadows, on all threads. A name gives the \
-               shaded places along each side of a pixel, twice, and the samples in each of them. Shadows come from maps up to 2×2 places and from rays above, unless \
-               the name says otherwise. The tables and plots list the presets and each quality that no other one beats in both time and error; \
-               the file has them all. Errors are against 8×8 shaded places with 16 samples each, none of which coincides with a sample of any quality. \
-               The teapot is Newell's, the chair and the mug were modelled with the editor. On the flights a budget of 16 ms chooses the most accurate \
-               quality that fits each frame, and predicts its time and its error against `reference`. Every frame counts. The constants \
-               behind the predictions were chosen on other flights. A frame's time includes choosing, drawing, and looking again at a part of the \
-               image.",
+        text: "Whole images of twelve scenes on all threads, at 26 qualities, and at 12 more where there are shadows; four of them also with \
+               1920×1080 pixels, at the qualities from which a time budget chooses. A name gives the shaded samples along each side of a pixel, \
+               twice, and the samples of coverage in each of them. Shadows come from maps up to 2×2 samples and from rays above, unless the name says \
+               otherwise. The tables list the presets and each quality that no other one beats in both time and error; the file has \
+               them all. Errors are against the truth of [accuracy.md](accuracy.md): rays in `f64`. The teapot is Newell's, the chair and \
+               the mug were modelled with the editor. On the flights a budget of 16 ms chooses the most accurate quality that fits each \
+               frame, and predicts its time and its error against `reference`. Every frame counts. The constants behind the predictions were \
+               chosen on other flights. A frame's time includes choosing, drawing, and looking again at a part of the image.",
         findings: findings(&rows),
-        plots: ["showcase", "shadows", "dense", "teapot", "chair", "mug"]
-            .into_iter()
-            .zip(FrameCase::ALL)
-            .map(plot)
-            .collect(),
+        plots: [("grass", FrameCase::Grass), ("layers", FrameCase::Layers)]
+            .map(|(name, case)| Plot::trade(name, &rows, case.name(), [TIME, RMSE]))
+            .into(),
         images: vec![heat_image([256, 160])],
         rows,
     }
 }
 
-/// All qualities of a case.
-fn front(case: FrameCase, size: [u32; 2], effort: Effort) -> Vec<Row> {
-    let mut variants = variants();
-    if case.has_shadows() {
-        variants.extend(other_shadows());
-    }
-    let errors = errors(case, size, &variants).expect("the size is in range");
-    let times = nanoseconds(effort.rounds().div_ceil(3), &variants, |quality| -> Box<dyn FnMut()> {
-        let mut repeated = Repeated::new(case, size, quality);
-        Box::new(move || {
-            repeated.draw(0.0).expect("the size is in range");
-        })
-    });
-    let row = |((quality, error), time): ((&Quality, f64), Spread)| {
-        whole(case.name(), name(*quality), size).with(RMSE, error).timed(TIME, time.scaled(1e-6))
-    };
-    variants.iter().zip(errors).zip(times).map(row).collect()
-}
-
-/// Keeps only qualities on the front of each scene and presets in tables and plots.
-pub(super) fn leave_out_what_is_beaten(rows: &mut [Row]) {
-    let point = |row: &Row| Some([row.value(TIME)?, row.value(RMSE)?]);
-    for case in FrameCase::ALL.into_iter().map(FrameCase::name).chain([MEANS]) {
-        let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.case == case).filter_map(point).collect();
-        let is_beaten = |[x, y]: [f64; 2]| points.iter().any(|&[u, v]| u <= x && v <= y && [u, v] != [x, y]);
-        for row in rows.iter_mut().filter(|row| row.case == case) {
-            let is_preset = row.variant.ends_with(')');
-            row.is_listed = is_preset || !point(row).is_some_and(is_beaten);
-        }
-    }
-}
-
 /// A row of images, drawn by all threads of the machine.
-fn whole(case: &str, variant: impl Into<String>, size: [u32; 2]) -> Row {
+fn whole(case: impl Into<String>, variant: impl Into<String>, size: [u32; 2]) -> Row {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     Row::new(case, variant).sized(size.map(|side| side as usize)).with_threads(threads)
-}
-
-/// Each quality over all scenes.
-pub(super) fn means(rows: &[Row], size: [u32; 2]) -> Vec<Row> {
-    let mean = |variant: &str, quantity: &str| {
-        let values = FrameCase::ALL.map(|case| value(rows, case.name(), variant, quantity));
-        elementary::pow(values.iter().product(), 1.0 / values.len() as f64)
-    };
-    let row = |&quality: &Quality| {
-        let variant = name(quality);
-        let [time, error] = [TIME, RMSE].map(|quantity| mean(&variant, quantity));
-        whole(MEANS, variant, size).with(RMSE, error).with(TIME, time)
-    };
-    variants().iter().map(row).collect()
-}
-
-/// The budget on a case's flight.
-fn flight(case: FrameCase, size: [u32; 2], effort: Effort) -> Row {
-    let (start, frames) = (Instant::now(), effort.pick(24, 60));
-    let steps = fly(case, size, LIMIT, frames, &mut || start.elapsed()).expect("the size is in range");
-    let summary = FlightSummary::of(&steps);
-    let mut times: Vec<f64> = steps.iter().map(|step: &Step| step.time.as_secs_f64() * 1e3).collect();
-    times.sort_by(f64::total_cmp);
-    let at = |part: usize| times[(times.len() - 1) * part / 4];
-    whole(FLIGHT, case.name(), size)
-        .by("a budget of 16 ms")
-        .of(case.name())
-        .timed(TIME, Spread { low: at(1), median: at(2), high: at(3) })
-        .with(IN_TIME, summary.in_time * 100.0)
-        .with(TIMES, summary.times * 100.0)
-        .with(FORESEEN, summary.errors * 100.0)
-        .with(WORST, summary.worst * 100.0)
 }
 
 /// The same image at each level of vector instructions that is there.
@@ -210,8 +143,6 @@ fn heat_image(size: [u32; 2]) -> ImageRow {
 }
 
 pub(super) fn findings(rows: &[Row]) -> Vec<String> {
-    let flight = |case: FrameCase, quantity: &str| number(value(rows, FLIGHT, case.name(), quantity));
-    let list = |quantity: &str| FrameCase::ALL.map(|case| flight(case, quantity)).join(", ");
     let certified = [Workload::KnotPhong, Workload::Cubes]
         .map(|workload| {
             let share = value(rows, PROOFS, &format!("{}, {PROVEN}", workload.name()), CERTIFIED);
@@ -221,13 +152,7 @@ pub(super) fn findings(rows: &[Row]) -> Vec<String> {
     vec![
         "`standard` is for images that move, `high` for those that stay; `draft` to find a view, `reference` to measure against."
             .to_owned(),
-        format!(
-            "Six flights, with the share of their frames in %, flight by flight. Frames that keep a budget of 16 ms: {}. Frames \
-             that take the predicted time, within a fifth: {}. Frames that have the predicted error, within a fifth: {}.",
-            list(IN_TIME),
-            list(TIMES),
-            list(FORESEEN),
-        ),
+        budget::finding(rows),
         format!("Certified, of the pixels that show anything, are {certified}."),
         level_finding(rows),
     ]
@@ -250,7 +175,7 @@ fn level_finding(rows: &[Row]) -> String {
 pub(super) fn headlines() -> Vec<Headline> {
     let [draft, standard, high, reference] = Preset::ALL.map(|preset| name(preset.quality()));
     let step = |to: &String, from: &String, quantities: &[&'static str]| {
-        Headline::within(MEANS, [to.clone(), from.clone()], quantities)
+        Headline::within(Sweep::small([480, 288]).means(), [to.clone(), from.clone()], quantities)
     };
     let proven = |workload: Workload| {
         let variants = [PROVEN, DRAWN].map(|way| format!("{}, {way}", workload.name()));
