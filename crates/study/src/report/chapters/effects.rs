@@ -1,7 +1,6 @@
 //! What does each effect cost? One setting at a time, against the truth of the whole image.
 
-use std::cell::RefCell;
-
+use super::frames::sweep::{ImageCost, image_costs};
 use super::frames::{RMSE, TIME};
 use super::*;
 use crate::frames::{FrameCase, Repeated};
@@ -115,27 +114,17 @@ fn table_rows(
     effort: Effort,
 ) -> Vec<Row> {
     let size = truth.size();
-    let errors = RefCell::new(vec![f64::NAN; ways.len()]);
-    let numbers: Vec<usize> = (0..ways.len()).collect();
     let scene = case.scene();
-    let times = nanoseconds(effort.rounds().div_ceil(2), &numbers, |number| -> Box<dyn FnMut()> {
-        let mut repeated =
-            Repeated::of(case, scene.clone(), size, ways[number].quality).with_sampler(ways[number].sampler);
-        let errors = &errors;
-        Box::new(move || {
-            let frame = repeated.draw(0.0).expect("the size is in range");
-            let mut errors = errors.borrow_mut();
-            if errors[number].is_nan() {
-                errors[number] = truth.error(frame);
-            }
-        })
+    let costs = image_costs(truth, effort.rounds().div_ceil(2), ways.len(), &|number| {
+        let EffectSetting { quality, sampler, .. } = ways[number];
+        Repeated::of(case, scene.clone(), size, quality).with_sampler(sampler)
     });
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let row = |((way, error), time): ((&EffectSetting, f64), Spread)| {
+    let row = |(way, cost): (&EffectSetting, ImageCost)| {
         let row = Row::new(table, way.name.clone()).of(case.name()).sized(size.map(|side| side as usize));
-        row.with_threads(threads).with(RMSE, error).timed(TIME, time.scaled(1e-6))
+        cost.on(row.with_threads(threads))
     };
-    ways.iter().zip(errors.into_inner()).zip(times).map(row).collect()
+    ways.iter().zip(costs).map(row).collect()
 }
 
 pub(super) fn headlines() -> Vec<Headline> {

@@ -15,6 +15,42 @@ pub(in crate::report) const ROUNDING: &str = "RMSE of the truth as bytes";
 pub(in crate::report) const BOUND: &str = "more than the RMSE of the truth";
 pub(in crate::report) const UNCERTAIN: &str = "RMSE of draft known within, %";
 
+/// The time and the error of an image.
+pub(in crate::report) struct ImageCost {
+    time: Spread,
+    error: f64,
+}
+
+impl ImageCost {
+    /// In a row.
+    pub(in crate::report) fn on(self, row: Row) -> Row {
+        row.with(RMSE, self.error).timed(TIME, self.time.scaled(1e-6))
+    }
+}
+
+/// Draws so many images in turns, and compares each of them with the truth.
+pub(in crate::report) fn image_costs(
+    truth: &Truth,
+    rounds: usize,
+    count: usize,
+    image: &dyn Fn(usize) -> Repeated,
+) -> Vec<ImageCost> {
+    let errors = RefCell::new(vec![f64::NAN; count]);
+    let numbers: Vec<usize> = (0..count).collect();
+    let times = nanoseconds(rounds, &numbers, |number| -> Box<dyn FnMut()> {
+        let (mut repeated, errors) = (image(number), &errors);
+        Box::new(move || {
+            let frame = repeated.draw(0.0).expect("the size is in range");
+            // In the first round, which does not count.
+            let mut errors = errors.borrow_mut();
+            if errors[number].is_nan() {
+                errors[number] = truth.error(frame);
+            }
+        })
+    });
+    times.into_iter().zip(errors.into_inner()).map(|(time, error)| ImageCost { time, error }).collect()
+}
+
 /// Scenes at a size.
 pub(in crate::report) struct Sweep {
     pub(in crate::report) size: [u32; 2],
@@ -111,27 +147,15 @@ impl Sweep {
 
     fn front(&self, case: FrameCase, truth: &Truth, effort: Effort) -> Vec<Row> {
         let qualities = self.qualities(Some(case));
-        let errors = RefCell::new(vec![f64::NAN; qualities.len()]);
         let rounds = if self.is_large { 1 } else { effort.pick(1, 2) };
-        let numbers: Vec<usize> = (0..qualities.len()).collect();
         let scene = case.scene();
-        let times = nanoseconds(rounds, &numbers, |number| -> Box<dyn FnMut()> {
-            let mut repeated = Repeated::of(case, scene.clone(), self.size, qualities[number]);
-            let errors = &errors;
-            Box::new(move || {
-                let frame = repeated.draw(0.0).expect("the size is in range");
-                // In the first round, which does not count.
-                let mut errors = errors.borrow_mut();
-                if errors[number].is_nan() {
-                    errors[number] = truth.error(frame);
-                }
-            })
+        let costs = image_costs(truth, rounds, qualities.len(), &|number| {
+            Repeated::of(case, scene.clone(), self.size, qualities[number])
         });
-        let row = |((quality, error), time): ((&Quality, f64), Spread)| {
-            let row = whole(self.case(case), name(*quality), self.size);
-            row.with(RMSE, error).timed(TIME, time.scaled(1e-6))
+        let row = |(quality, cost): (&Quality, ImageCost)| {
+            cost.on(whole(self.case(case), name(*quality), self.size))
         };
-        qualities.iter().zip(errors.into_inner()).zip(times).map(row).collect()
+        qualities.iter().zip(costs).map(row).collect()
     }
 
     /// A number of a quality in a case.
