@@ -88,6 +88,12 @@ impl World {
     ) -> Result<Self, Unsupported> {
         let effects = effects(settings)?;
         let eye = Eye::new(camera, settings)?;
+        let is_soft = |light: &trigon_scene::Light| light.radius > 0.0;
+        if settings.effects.soft_shadows.radius > 0.0
+            || scene.nodes().iter().any(|(_, node)| node.light.as_deref().is_some_and(is_soft))
+        {
+            return Err(Unsupported("lamps with an extent"));
+        }
         let (lamps, ambient) = lights(scene, &eye, settings);
         let looks = scene.materials.iter().map(|(_, material)| Look::new(scene, material));
         let looks = looks.collect::<Result<Vec<Look>, _>>()?;
