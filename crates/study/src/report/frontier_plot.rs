@@ -72,8 +72,9 @@ impl Panel {
     fn legend(&self) -> Vec<LegendEntry> {
         let all = [
             (Mark::Preset, "presets", LegendMark::Dot(ORANGE)),
-            (Mark::Candidate, "what a time budget chooses from", LegendMark::Ring(BLUE)),
-            (Mark::Plain, "beaten by another one", LegendMark::Dot(GREY)),
+            (Mark::Candidate, "what a time budget chooses from", LegendMark::Ring(ORANGE)),
+            (Mark::Candidate, "others, beaten by none", LegendMark::Dot(BLUE)),
+            (Mark::Candidate, "others, beaten by another one", LegendMark::Dot(GREY)),
             (Mark::Rival, "other renderers", LegendMark::Dot(PURPLE)),
         ];
         let has = |mark: Mark| self.dots.iter().any(|dot| dot.mark == mark);

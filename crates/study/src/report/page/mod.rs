@@ -34,7 +34,7 @@ pub(super) fn page(recorded: &Recorded<'_>) -> String {
         let _ = writeln!(text, "![Error against time: {}](images/{})\n", panel.title, panel.file());
     }
     text.push_str(
-        "*Geometric means over the scenes. Every setting is a dot; blue ones are beaten by none in both time and error. Nothing that is stored in \
+        "*Geometric means over the scenes. Every setting is a dot, and the line joins those that none beats in both time and error. Nothing that is stored in \
          bytes can lie below the level of the right image as bytes. In the last picture other renderers draw four workloads, with one \
          sample per pixel unless it says otherwise.*\n\n",
     );
