@@ -142,8 +142,10 @@ impl<'a> Pass<'a> {
     /// Whether a frame is large enough to be shared among threads: waking
     /// others costs a fraction of a millisecond.
     pub(crate) fn is_worth_sharing(&self, target: &Target<'_>) -> bool {
-        // Measured roughly: nanoseconds for a sample and for a primitive.
+        // Measured roughly: nanoseconds for a sample, for one that is shaded, if little is done for it, and for a
+        // primitive.
         const SAMPLE: u64 = 1;
+        const SHADED_SAMPLE: u64 = 6;
         const PRIMITIVE: u64 = 30;
         const WORTH_SHARING: u64 = 200_000;
         let axis = u64::from(target.samples_per_axis());
@@ -152,6 +154,23 @@ impl<'a> Pass<'a> {
         let [width, height] = [0, 1].map(|axis| max[axis].saturating_sub(min[axis]).max(0) as u64);
         let samples = width * height * samples;
         let primitives: usize = self.draws.iter().map(|draw| draw.geometry.len()).sum();
-        samples * SAMPLE + primitives as u64 * PRIMITIVE >= WORTH_SHARING
+        let sample = if target.has_colors() { SHADED_SAMPLE } else { SAMPLE };
+        samples * sample + primitives as u64 * PRIMITIVE >= WORTH_SHARING
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Output;
+
+    #[test]
+    fn shading_was_taken_to_be_as_quick_as_depth_and_left_to_one_thread() {
+        let is_shared = |output| {
+            let target = Target::new(480, 288, &[output]).expect("a sound size");
+            Pass::new().is_worth_sharing(&target)
+        };
+        assert!(is_shared(Output::Srgb8), "milliseconds");
+        assert!(!is_shared(Output::Depth), "a seventh of a millisecond");
     }
 }

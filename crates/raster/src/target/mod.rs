@@ -262,6 +262,11 @@ impl<'a> Target<'a> {
         offset.map(|part| (f64::from(axis / 2) + f64::from(part) / 256.0) / f64::from(axis))
     }
 
+    /// Whether any of its images holds colours.
+    pub(crate) fn has_colors(&self) -> bool {
+        self.srgb8().is_some() || self.unorm8().is_some() || self.linear().is_some()
+    }
+
     pub(crate) fn pattern(&self) -> SamplePattern {
         self.pattern
     }

@@ -48,7 +48,7 @@ pub(super) struct Engine {
 }
 
 /// A frame of fewer samples is begun on the calling thread: waking another one could take as long as the frame.
-const WORTH_SHARING: u64 = 1 << 17;
+const WORTH_SHARING: u64 = 1 << 15;
 
 /// What is to be drawn.
 #[derive(Clone, Copy)]
