@@ -186,8 +186,8 @@ impl Preset {
 
     /// Its quality.
     ///
-    /// All of them compute lighting per pixel: per-vertex lighting is less accurate, and hardly
-    /// faster.
+    /// All of them compute lighting per pixel. Per vertex it takes two thirds of a draft's time and
+    /// has twice its error (`docs/accuracy.md`), so only a [`TimeBudget`](crate::quality::TimeBudget) falls back on it.
     #[must_use]
     pub const fn quality(self) -> Quality {
         let shading = ShadingModel::Phong;
