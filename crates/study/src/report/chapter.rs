@@ -196,7 +196,16 @@ impl Row {
     }
 
     pub(super) fn value(&self, quantity: &str) -> Option<f64> {
-        self.values.iter().find(|value| value.quantity == quantity).map(|value| value.value)
+        self.found(quantity).map(|found| found.value)
+    }
+
+    /// Between which values half of the runs lay.
+    pub(super) fn quartiles(&self, quantity: &str) -> Option<[f64; 2]> {
+        self.found(quantity)?.range
+    }
+
+    fn found(&self, quantity: &str) -> Option<&Value> {
+        self.values.iter().find(|value| value.quantity == quantity)
     }
 }
 
@@ -204,6 +213,11 @@ impl Row {
 pub(super) fn value(rows: &[Row], case: &str, variant: &str, quantity: &str) -> f64 {
     let mut found = rows.iter().filter(|row| row.case == case && row.variant == variant);
     found.find_map(|row| row.value(quantity)).unwrap_or(f64::NAN)
+}
+
+/// Quartiles in words, after their median.
+pub(super) fn quartile_words(quartiles: Option<[f64; 2]>) -> String {
+    quartiles.map_or_else(String::new, |[low, high]| format!(" ({}–{})", number(low), number(high)))
 }
 
 /// Three digits that count, without an exponent where people can do without.

@@ -54,12 +54,19 @@ impl Panel {
     pub(super) fn svg(&self) -> String {
         let points: Vec<[f64; 2]> = self.dots.iter().map(|dot| dot.point).collect();
         let best = best_of(&points);
-        let line = best.iter().map(|&index| points[index]).collect();
+        let has_rivals = self.dots.iter().any(|dot| dot.mark == Mark::Rival);
+        let line = PlotLine {
+            points: best.iter().map(|&index| points[index]).collect(),
+            color: FAINT_BLUE,
+            width: 1,
+            disc: 0,
+        };
         let dots = self.dots.iter().enumerate().map(|(index, dot)| dot.drawn(best.contains(&index)));
         let plot = Plot {
             title: self.title.clone(),
             axes: self.axes.map(str::to_owned),
-            lines: vec![PlotLine { points: line, color: FAINT_BLUE, width: 1, disc: 0 }],
+            // One line would join the settings of different renderers.
+            lines: if has_rivals { Vec::new() } else { vec![line] },
             levels: vec![(self.floor, "the right image as bytes".to_owned())],
             dots: dots.collect(),
             legend: self.legend(),

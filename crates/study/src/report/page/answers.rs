@@ -33,7 +33,7 @@ fn shadowed(recorded: &Recorded<'_>, sweep: &Sweep) -> Vec<Setting> {
         let mean = |quantity: &str| {
             geometric_mean(cases.iter().map(|&case| sweep.value(recorded.frames, case, *quality, quantity)))
         };
-        Setting { name: name(*quality), time: mean(TIME), error: mean(RMSE) }
+        Setting { name: name(*quality), time: mean(TIME), quartiles: None, error: mean(RMSE) }
     };
     sweep.qualities(None).iter().map(setting).collect()
 }

@@ -104,6 +104,7 @@ fn left_out(recorded: &Recorded<'_>, sweep: &Sweep) -> f64 {
         let setting = |quality| Setting {
             name: name(quality),
             time: value(quality, TIME),
+            quartiles: None,
             error: value(quality, RMSE),
         };
         qualities.map(setting).collect()

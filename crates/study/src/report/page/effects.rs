@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::super::chapter::{Row, number};
+use super::super::chapter::{Row, number, quartile_words};
 use super::super::chapters::effects::{OCCLUSION, SHADOWS, TEXTURES};
 use super::super::chapters::frames::{RMSE, TIME};
 use super::super::chapters::line;
@@ -81,7 +81,7 @@ pub(super) fn write(recorded: &Recorded<'_>, text: &mut String) {
             )
         },
     ];
-    text.push_str("\n## One effect at a time\n\nErrors are those of the whole image.\n");
+    text.push_str("\n## One effect at a time\n\nErrors are those of the whole image; half of the runs took between the two times in parentheses.\n");
     tables.iter().for_each(|table| table.write(text));
 }
 
@@ -98,8 +98,10 @@ impl Table<'_> {
                 && (self.variants.is_empty() || self.variants.contains(&row.variant.as_str()))
         };
         for row in self.rows.iter().filter(is_shown) {
-            let cells =
-                self.quantities.map(|quantity| row.value(quantity).map_or_else(|| "–".to_owned(), number));
+            let cells = self.quantities.map(|quantity| match row.value(quantity) {
+                Some(value) => number(value) + &quartile_words(row.quartiles(quantity)),
+                None => "–".to_owned(),
+            });
             let _ = writeln!(text, "| {} | {} |", row.variant, cells.join(" | "));
         }
         let _ = writeln!(text, "\n![{}: error against time](images/accuracy-{}.svg)", self.title, self.image);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::super::chapter::{Row, number, value};
+use super::super::chapter::{Row, number, quartile_words, value};
 use super::super::chapters::frames::sweep::{ROUNDING, geometric_mean};
 use super::super::chapters::frames::{Sweep, TIME};
 use super::recorded::{Recorded, Setting, best_within, settings};
@@ -15,7 +15,7 @@ const WORTH: f64 = 0.9;
 
 pub(super) fn write(recorded: &Recorded<'_>, text: &mut String) {
     let sweeps = recorded.sweeps();
-    text.push_str("## What do 2, 5, 16, 50 and 200 ms buy?\n\nGeometric means over twelve scenes, and over four of them at 1920×1080. What limits an image is the one change that takes away most of its \
+    text.push_str("## What do 2, 5, 16, 50 and 200 ms buy?\n\nGeometric means over twelve scenes, and over four of them at 1920×1080, of medians and, in parentheses, of quartiles. What limits an image is the one change that takes away most of its \
          error, whatever it costs: more shaded samples, more samples of coverage, or shadow rays instead of maps.\n");
     for sweep in &sweeps {
         let [width, height] = sweep.size;
@@ -29,9 +29,10 @@ pub(super) fn write(recorded: &Recorded<'_>, text: &mut String) {
             let _ = match best_within(&all, budget) {
                 Some(best) => writeln!(
                     text,
-                    "| {budget} ms | {} | {} ms | {} | {} |",
+                    "| {budget} ms | {} | {}{} ms | {} | {} |",
                     best.name,
                     number(best.time),
+                    quartile_words(best.quartiles),
                     number(best.error),
                     limit(best, &all, floor)
                 ),
@@ -69,15 +70,15 @@ pub(super) fn limit(of: &Setting, all: &[Setting], floor: f64) -> String {
     }
 }
 
-/// Pairs of settings in the same scene of which one has at least twice the samples of the other and else is the same, and
+/// Pairs of settings in the same scene, or over all of them, of which one has at least twice the samples of the other and else is the same, and
 /// those among them whose times contradict that: the one with more is faster, and the quartiles of both lie apart.
 pub(in crate::report) fn contradictions(rows: &[Row]) -> [usize; 2] {
-    let quartiles =
-        |row: &Row| row.values.iter().find(|value| value.quantity == TIME).and_then(|value| value.range);
     let mut counts = [0; 2];
     for less in rows {
         for more in rows.iter().filter(|more| more.case == less.case) {
-            let [Some([low, _]), Some([_, high])] = [quartiles(less), quartiles(more)] else { continue };
+            let [Some([low, _]), Some([_, high])] = [less.quartiles(TIME), more.quartiles(TIME)] else {
+                continue;
+            };
             if is_twice(&less.variant, &more.variant) {
                 counts[0] += 1;
                 counts[1] += usize::from(high < low);
@@ -139,7 +140,7 @@ mod tests {
     use crate::frames::{name, other_shadows, variants};
 
     fn setting(name: &str, error: f64) -> Setting {
-        Setting { name: name.to_owned(), time: 1.0, error }
+        Setting { name: name.to_owned(), time: 1.0, quartiles: None, error }
     }
 
     #[test]

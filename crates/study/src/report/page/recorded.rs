@@ -31,13 +31,20 @@ impl Recorded<'_> {
 pub(super) struct Setting {
     pub(super) name: String,
     pub(super) time: f64,
+    /// Between which times half of the runs lay.
+    pub(super) quartiles: Option<[f64; 2]>,
     pub(super) error: f64,
 }
 
 /// The settings of a table.
 pub(super) fn settings(rows: &[Row], case: &str) -> Vec<Setting> {
     let setting = |row: &Row| {
-        Some(Setting { name: row.variant.clone(), time: row.value(TIME)?, error: row.value(RMSE)? })
+        Some(Setting {
+            name: row.variant.clone(),
+            time: row.value(TIME)?,
+            quartiles: row.quartiles(TIME),
+            error: row.value(RMSE)?,
+        })
     };
     rows.iter().filter(|row| row.case == case).filter_map(setting).collect()
 }

@@ -170,14 +170,26 @@ impl Sweep {
         value(rows, &self.case(case), &name(quality), quantity)
     }
 
+    /// Between which times half of the frames lay.
+    fn quartiles(&self, rows: &[Row], case: FrameCase, quality: Quality) -> [f64; 2] {
+        let quality = if case.has_shadows() { quality } else { usual(quality) };
+        let (table, variant) = (self.case(case), name(quality));
+        let found = rows.iter().find(|row| row.case == table && row.variant == variant);
+        found.and_then(|row| row.quartiles(TIME)).unwrap_or([f64::NAN; 2])
+    }
+
     /// Each quality over all scenes.
     pub(in crate::report) fn mean_rows(&self, rows: &[Row]) -> Vec<Row> {
         let mean = |quality: Quality, quantity: &str| {
             geometric_mean(self.cases.iter().map(|&case| self.value(rows, case, quality, quantity)))
         };
         let row = |quality: Quality| {
-            let [error, time] = [RMSE, TIME].map(|quantity| mean(quality, quantity));
-            whole(self.means(), name(quality), self.size).with(RMSE, error).with(TIME, time)
+            let [error, median] = [RMSE, TIME].map(|quantity| mean(quality, quantity));
+            let quartile = |which: usize| {
+                geometric_mean(self.cases.iter().map(|&case| self.quartiles(rows, case, quality)[which]))
+            };
+            let time = Spread { low: quartile(0), median, high: quartile(1) };
+            whole(self.means(), name(quality), self.size).with(RMSE, error).timed(TIME, time)
         };
         self.qualities(None).into_iter().map(row).collect()
     }
