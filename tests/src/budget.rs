@@ -77,7 +77,8 @@ fn geometric_mean(ratios: &[f64]) -> f64 {
     elementary::exp(sum / ratios.len() as f64)
 }
 
-/// In the geometric mean. At worst it is 5.5, in a city: from 3×3 samples on its shadows by rays would be better than those by maps.
+/// In the geometric mean. At worst it is one step on the frontier, from one shaded sample to four of them, which takes away up to two
+/// thirds of the error: two settings whose times differ by less than their quartiles may lie on both sides of a budget.
 #[test]
 fn no_quality_would_buy_much_more_accuracy_for_the_same_time() {
     let rows = recorded();
@@ -88,25 +89,26 @@ fn no_quality_would_buy_much_more_accuracy_for_the_same_time() {
         for budget in [5.0, 8.0, 12.0, 16.0, 20.0, 33.0, 50.0, 100.0] {
             let best = least(all.values().copied(), budget);
             if let (Some(chosen), Some(best)) = (least(chosen(case, &all), budget), best) {
-                assert!(chosen / best < 5.5, "{}, {budget} ms: {}", case.name(), chosen / best);
+                assert!(chosen / best < 3.2, "{}, {budget} ms: {}", case.name(), chosen / best);
                 ratios.push(chosen / best);
             }
         }
     }
     assert!(ratios.len() > 60, "{} budgets", ratios.len());
-    assert!(geometric_mean(&ratios) < 1.15, "{}", geometric_mean(&ratios));
+    assert!(geometric_mean(&ratios) < 1.1, "{}", geometric_mean(&ratios));
 }
 
-/// Over all scenes some candidates are beaten, and some qualities that none beats are missing among them: these and no others. Shadow
-/// rays have become fast enough to be worth their time from 3×3 samples on.
+/// Over all scenes none of them is beaten, and none that no other one beats is missing.
 #[test]
-fn candidates_are_the_qualities_that_none_beats_but_for_these() {
+fn candidates_are_the_qualities_that_none_beats() {
     let all = costs(&recorded(), "all scenes, geometric means");
     let own: Vec<(String, Cost)> = candidates().map(|quality| (name(quality), all[&name(quality)])).to_vec();
     let beats = |one: &Cost, other: &Cost, by: f64| (0..2).all(|axis| one[axis] < by * other[axis]);
-    let beaten = own.iter().filter(|(_, cost)| all.values().any(|other| beats(other, cost, 0.9)));
-    let beaten: Vec<&str> = beaten.map(|(name, _)| name.as_str()).collect();
-    assert_eq!(beaten, ["4×4×1, shadow maps", "4×4×2, shadow maps", "4×4×4, shadow maps"]);
+    for (name, cost) in &own {
+        let better: Vec<&String> =
+            all.iter().filter(|(_, other)| beats(other, cost, 0.9)).map(|(name, _)| name).collect();
+        assert!(better.is_empty(), "{name} is beaten by {better:?}");
+    }
     // A missing one beats all candidates of about its time by a sixth.
     let is_like = |one: &Cost, other: &Cost| (0..2).all(|axis| other[axis] <= 1.15 * one[axis]);
     let missing = all.iter().filter(|(_, cost)| {
@@ -114,8 +116,7 @@ fn candidates_are_the_qualities_that_none_beats_but_for_these() {
             && !all.values().any(|other| beats(other, cost, 1.0))
     });
     let missing: Vec<&str> = missing.map(|(name, _)| name.as_str()).collect();
-    // Light at the vertices is left out on purpose: no preset has it.
-    assert_eq!(missing, ["1×1×1, Gouraud", "2×2×4, shadow rays", "3×3×2", "3×3×4", "4×4×2"]);
+    assert!(missing.is_empty(), "{missing:?}");
     let presets = Preset::ALL.map(|preset| name(preset.quality()));
     assert!(
         presets.iter().all(|preset| own.iter().any(|(name, _)| name == preset)),
@@ -146,7 +147,7 @@ fn a_budget_is_used_about_as_well_as_it_allows() {
                 }
             }
         }
-        assert!(ratios.len() > 90, "{limit} ms: {} frames", ratios.len());
+        assert!(ratios.len() >= 64, "{limit} ms fits in fewer than four scenes: {} frames", ratios.len());
         let mean = geometric_mean(&ratios);
         assert!(mean <= 1.5, "{limit} ms: {mean} times the least error");
     }

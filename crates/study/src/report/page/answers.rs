@@ -100,18 +100,18 @@ fn rays_for_maps(recorded: &Recorded<'_>) -> String {
 
 fn more_samples(recorded: &Recorded<'_>) -> String {
     let [small, large] = recorded.sweeps();
-    let maps = Quality { shadows: Preset::Draft.quality().shadows, ..Preset::High.quality() };
-    let pair = |sweep: &Sweep| {
+    let [standard, high] = [Preset::Standard, Preset::High].map(Preset::quality);
+    let maps = Quality { shadows: standard.shadows, ..high };
+    let pair = |sweep: &Sweep, more: Quality| {
         let all = settings(recorded.frames, &sweep.means());
-        let found = [maps, Preset::Standard.quality()]
-            .map(|quality| all.iter().find(|one| one.name == name(quality)).cloned());
+        let found = [more, standard].map(|quality| all.iter().find(|one| one.name == name(quality)).cloned());
         let [Some(one), Some(other)] = found else { return String::new() };
         format!("at {}×{}, {}", sweep.size[0], sweep.size[1], instead([&one, &other]))
     };
     format!(
-        "**What do 4×4 samples cost over 2×2?** With the same shadow maps: {}; {}.",
-        pair(&small),
-        pair(&large)
+        "**What do 4×4 samples cost over 2×2?** With the same shadow maps {}; with shadow rays instead of them {}.",
+        pair(&small, maps),
+        pair(&large, high)
     )
 }
 

@@ -16,7 +16,7 @@ const WORTH: f64 = 0.9;
 pub(super) fn write(recorded: &Recorded<'_>, text: &mut String) {
     let sweeps = recorded.sweeps();
     text.push_str("## What do 2, 5, 16, 50 and 200 ms buy?\n\nGeometric means over twelve scenes, and over four of them at 1920×1080, of medians and, in parentheses, of quartiles. What limits an image is the one change that takes away most of its \
-         error, whatever it costs: more shaded samples, more samples of coverage, or shadow rays instead of maps.\n");
+         error, whatever it costs: more shaded samples, more samples of coverage, shadow rays instead of maps, or lighting per pixel.\n");
     for sweep in &sweeps {
         let [width, height] = sweep.size;
         let all = settings(recorded.frames, &sweep.means());
@@ -91,10 +91,11 @@ pub(in crate::report) fn contradictions(rows: &[Row]) -> [usize; 2] {
 /// The one thing that differs between two settings, if the second has more of it.
 fn change(from: &str, to: &str) -> Option<&'static str> {
     let (one, other) = (parts(from)?, parts(to)?);
-    if one.shading != other.shading {
-        return None;
-    }
     let is_same = |one: &Parts, other: &Parts| (one.axis, one.samples) == (other.axis, other.samples);
+    if one.shading != other.shading {
+        let is_shading_alone = is_same(&one, &other) && one.has_rays == other.has_rays;
+        return (is_shading_alone && other.shading.is_empty()).then_some("lighting per vertex or triangle");
+    }
     if is_same(&one, &other) {
         return (!one.has_rays && other.has_rays).then_some("shadow maps");
     }
@@ -163,6 +164,10 @@ mod tests {
         ];
         assert_eq!(limit(&own, &all, 1.0), "shaded samples: 3×3×1, shadow maps has 0.500 of the error");
         assert!(limit(&own, &all[..3], 1.0).starts_with("shadow maps: "), "without it");
+        let by_vertex = setting("2×2×1, Gouraud", 9.0);
+        assert!(
+            limit(&by_vertex, &all, 1.0).starts_with("lighting per vertex or triangle: 2×2×1 (standard)")
+        );
         assert_eq!(
             limit(&own, &all[..2], 2.4),
             "no single change takes away much: 2.40 of it is rounding to bytes, 3.20 the rest (their squares add up)"
