@@ -187,6 +187,8 @@ mod tests {
             let quality = Quality { samples_per_axis, samples, ..Preset::Draft.quality() };
             costs.learn(&image(quality), invented(&image(quality)));
         }
+        let by_vertex = image(Quality { shading: ShadingModel::Gouraud, ..Preset::Draft.quality() });
+        costs.learn(&by_vertex, invented(&by_vertex));
         for quality in candidates() {
             let (said, is) = (costs.predict(&image(quality)), invented(&image(quality)));
             let ratio = said.as_secs_f64() / is.as_secs_f64();

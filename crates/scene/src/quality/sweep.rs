@@ -281,6 +281,7 @@ impl Sweep {
 mod tests {
     use super::*;
     use crate::effect_settings::Shadows;
+    use crate::settings::ShadingModel;
     use crate::{render, showcase};
 
     /// A sweep of a small image without shadows.
@@ -374,7 +375,10 @@ mod tests {
             sweep.qualities.iter().map(|known| known.quality).collect::<Vec<_>>()
         };
         let (without, with) = (distinct(Shadows::Off), distinct(Shadows::Rays));
-        let samples = |quality: &Quality| (quality.samples_per_axis, quality.samples);
+        let samples = |quality: &Quality| {
+            let is_by_pixel = quality.shading == ShadingModel::Phong;
+            (is_by_pixel, quality.samples_per_axis, quality.samples)
+        };
         let mut once: Vec<_> = without.iter().map(samples).collect();
         once.sort_unstable();
         assert!(once.is_sorted_by(|a, b| a < b), "without shadows, samples are all: {once:?}");

@@ -6,7 +6,7 @@ use trigon_camera::Camera;
 use trigon_math::{DQuat, DVec3};
 
 use super::*;
-use crate::{Frame, RenderSettings, Renderer, Scene, Shadows, render, showcase};
+use crate::{Frame, RenderSettings, Renderer, Scene, ShadingModel, Shadows, render, showcase};
 
 const LIMIT: Duration = Duration::from_millis(16);
 
@@ -62,8 +62,12 @@ fn what_never_fits_is_drawn_as_quickly_as_possible() {
 
 #[test]
 fn what_somebody_insists_on_is_not_traded() {
-    let mut budget =
-        TimeBudget::new(LIMIT).insisting(|quality| Quality { samples_per_axis: 2, samples: 1, ..quality });
+    let mut budget = TimeBudget::new(LIMIT).insisting(|quality| Quality {
+        samples_per_axis: 2,
+        samples: 1,
+        shading: ShadingModel::Phong,
+        ..quality
+    });
     assert_eq!(budget.limit(), LIMIT, "of the same time");
     let (choice, _) = pretend(&mut budget, 1000.0);
     assert_eq!((choice.chosen.quality.samples_per_axis, choice.chosen.quality.samples), (2, 1), "{choice}");
