@@ -8,12 +8,14 @@ use crate::settings::{RenderSettings, ShadingModel};
 
 /// The units of work that make up a frame's time: the frame itself (its vertices and triangles),
 /// pixels, shaded samples, additional samples, lighting at each shaded sample, shadow rays there,
-/// ambient occlusion rays.
-const UNITS: usize = 7;
+/// ambient occlusion rays, rays to lamps with an extent.
+const UNITS: usize = 8;
 
 /// Nanoseconds per unit before anything was measured. Only their proportions count, and only until
-/// frames have given better values; they are those of the built-in scene on two threads.
-const USUAL: [f64; UNITS] = [500_000.0, 4.0, 15.0, 4.0, 10.0, 60.0, 40.0];
+/// frames have given better values; they are those of the built-in scene on two threads. Rays to lamps with
+/// an extent take as long as those of ambient occlusion, but settings cannot tell whether a scene has such lamps,
+/// and most have none.
+const USUAL: [f64; UNITS] = [500_000.0, 4.0, 15.0, 4.0, 10.0, 60.0, 40.0, 10.0];
 
 /// The weight of the default proportions relative to a measured frame.
 const TRUST_IN_USUAL: f64 = 0.001;
@@ -112,12 +114,14 @@ fn work(settings: &RenderSettings) -> [f64; UNITS] {
     let pixels = f64::from(settings.width) * f64::from(settings.height);
     let shaded = pixels * f64::from(quality.shaded_samples());
     let when = |is_so: bool| if is_so { shaded } else { 0.0 };
-    let occlusion_rays = f64::from(quality.occlusion_rays)
-        * match quality.occlusion_sampling {
-            RaySampling::Full => shaded,
-            // A sixteenth of them in a quarter of the pixels.
-            RaySampling::Shared => pixels / 64.0,
-        };
+    let all_rays = |rays: u32, sampling| {
+        f64::from(rays)
+            * match sampling {
+                RaySampling::Full => shaded,
+                // A sixteenth of them in a quarter of the pixels.
+                RaySampling::Shared => pixels / 64.0,
+            }
+    };
     [
         1.0,
         pixels,
@@ -125,7 +129,8 @@ fn work(settings: &RenderSettings) -> [f64; UNITS] {
         shaded * f64::from(quality.samples.saturating_sub(1)),
         when(quality.shading == ShadingModel::Phong),
         when(quality.shadows == Shadows::Rays),
-        occlusion_rays,
+        all_rays(quality.occlusion_rays, quality.occlusion_sampling),
+        all_rays(quality.shadow_rays, quality.shadow_sampling),
     ]
 }
 
@@ -165,6 +170,7 @@ fn fitted(measurements: &[Measurement]) -> [f64; UNITS] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect_settings::EffectSettings;
     use crate::quality::{Preset, candidates};
 
     fn image(quality: Quality) -> RenderSettings {
@@ -175,7 +181,7 @@ mod tests {
 
     /// Milliseconds on a fictional machine that does not follow the default proportions.
     fn invented(settings: &RenderSettings) -> Duration {
-        let costs = [3e6, 1.0, 40.0, 1.0, 2.0, 0.0, 0.0];
+        let costs = [3e6, 1.0, 40.0, 1.0, 2.0, 0.0, 0.0, 0.0];
         Duration::from_nanos(sum(&work(settings), &costs) as u64)
     }
 
@@ -193,6 +199,32 @@ mod tests {
             let (said, is) = (costs.predict(&image(quality)), invented(&image(quality)));
             let ratio = said.as_secs_f64() / is.as_secs_f64();
             assert!((0.8..1.25).contains(&ratio), "{quality}: {said:?} of {is:?}");
+        }
+    }
+
+    /// The reference has 1,024 rays to each of these lamps in each pixel, the others the 64 of a few pixels or none.
+    #[test]
+    fn the_reference_is_foreseen_with_lamps_of_an_extent_and_without() {
+        for nanoseconds in [0.0, 40.0, 200.0] {
+            let frame = |size: u32, quality: Quality| {
+                let effects = EffectSettings { shadows: Shadows::Rays, ..EffectSettings::default() };
+                let mut settings = RenderSettings { effects, ..RenderSettings::new(size, size) };
+                quality.apply(&mut settings);
+                settings
+            };
+            let takes = |settings: &RenderSettings| {
+                let costs = [1e5, 5.0, 20.0, 6.0, 8.0, 80.0, 0.0, nanoseconds];
+                Duration::from_nanos(sum(&work(settings), &costs) as u64)
+            };
+            let mut costs = CostModel::default();
+            for quality in candidates() {
+                costs.learn(&frame(60, quality), takes(&frame(60, quality)));
+            }
+            for preset in [Preset::High, Preset::Reference] {
+                let whole = frame(400, preset.quality());
+                let ratio = costs.predict(&whole).as_secs_f64() / takes(&whole).as_secs_f64();
+                assert!((0.8..1.25).contains(&ratio), "{preset}, {nanoseconds} ns: {ratio}");
+            }
         }
     }
 
