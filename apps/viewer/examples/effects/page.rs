@@ -9,6 +9,10 @@ Every effect is off until a scene and its settings call for it. An effect that i
 pass, ray or byte (test `off_means_zero`). The tables below take each effect away from an image that has it, so that you see
 what it adds and what it costs. Every effect that a plan can list has at least one row.
 
+The one pipeline of all materials holds the code of every effect. That of soft shadows added 0.8 % to the instructions of a frame
+without shadows, 0.1 % with sharp shadow maps and 0.5 % with sharp shadow rays (the scene crate of 1f648f64 against that of 9dfb180d
+over the same rasterizer, one warm frame of 960×540 pixels with a knot of 17,500 triangles above a floor, callgrind, AVX2, one thread).
+
 Images are timed at 480×300 pixels without anti-aliasing, on one thread, with everything warm. All images of a scene are
 drawn in turn, 15 times over, so that a slow moment of the machine affects all of them alike. Two effects that leave the same
 image behind share its time. A time is the median, with the quartiles in parentheses. A cost is the median of the 15 ratios; where
