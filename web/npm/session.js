@@ -1,6 +1,6 @@
 // A model and its images, in the thread that calls: a worker of the page, or Node.
 
-import initAsync, { Files, Model, initSync, simdLevel } from './wasm/trigon.js';
+import initAsync, { Files, Measurement, Model, initSync, simdLevel } from './wasm/trigon.js';
 import { TrigonError } from './module.js';
 
 let exports = null;
@@ -64,6 +64,15 @@ export class Session {
   explain(x, y, width, height) {
     this.call('resize', width, height);
     return JSON.parse(this.call('explain', x, y));
+  }
+
+  /**
+   * A measurement of the image of a size at many settings, which its plot calls `subject`: `step()` gives the part that is
+   * done, and `result()` a JSON text. It needs a model.
+   */
+  measurement(width, height, subject) {
+    this.call('resize', width, height);
+    return this.#attempt(() => new Measurement(this.#model, subject));
   }
 
   /** Gives the model's memory back. */

@@ -40,6 +40,26 @@ export interface Explanation {
   text: string;
 }
 
+/** A setting with what it costs. The first three are the values of the attributes that use it. */
+export interface MeasuredSetting {
+  samples: number;
+  edgeSamples: number;
+  glassBounces: number;
+  name: string;
+  /** The lower quartile, the median and the upper quartile. */
+  milliseconds: [number, number, number];
+  /** The root mean square in linear light against the reference, the best that the renderer does at this size. */
+  error: number;
+  /** Whether no other setting is as fast and as accurate. */
+  standing: 'best' | 'uncertain' | 'dominated';
+}
+
+export interface Measured {
+  /** A plot of error against time; its first circles are the dots in their order. */
+  svg: string;
+  dots: MeasuredSetting[];
+}
+
 /** An image that the element shows: its size in pixels, and how many milliseconds it took. */
 export interface Shown {
   width: number;
@@ -55,6 +75,8 @@ export class TrigonViewerElement extends HTMLElement {
   load(files: Map<string, Uint8Array> | Iterable<File>, path?: string): Promise<Facts>;
   toBlob(): Promise<Blob>;
   explain(x: number, y: number): Promise<Explanation>;
+  measure(): Promise<Measured>;
+  cancelMeasurement(): void;
   settled(): Promise<Shown>;
   memory(): Promise<number>;
   resetView(): void;
@@ -66,6 +88,8 @@ export interface TrigonViewerEvents {
   load: CustomEvent<Facts>;
   error: CustomEvent<TrigonError>;
   render: CustomEvent<Shown>;
+  /** The part of a measurement that is done, up to 1. */
+  progress: CustomEvent<number>;
   'camera-change': CustomEvent<null>;
 }
 

@@ -26,10 +26,15 @@ function quantity(text) {
   return scale === undefined ? null : { value: Number(number) * scale, unit };
 }
 
+/** A number from 1 on. */
+function whole(text, usual, most) {
+  return Math.min(most, Math.max(1, Number.parseInt(text, 10) || usual));
+}
+
 export class TrigonViewerElement extends HTMLElement {
   static observedAttributes = [
-    'src', 'alt', 'camera-orbit', 'field-of-view', 'exposure', 'poster', 'background', 'display', 'surface', 'samples',
-    'auto-rotate', 'autoplay', 'animation-name', 'tabindex',
+    'src', 'alt', 'camera-orbit', 'field-of-view', 'exposure', 'poster', 'background', 'display', 'surface', 'samples', 'edge-samples',
+    'glass-bounces', 'auto-rotate', 'autoplay', 'animation-name', 'tabindex',
   ];
 
   #canvas = document.createElement('canvas');
@@ -68,9 +73,9 @@ export class TrigonViewerElement extends HTMLElement {
   level = simdLevels()[0];
 
   connectedCallback() {
-    this.#resizes = new ResizeObserver(() => this.#measure());
+    this.#resizes = new ResizeObserver(() => this.#fill());
     this.#resizes.observe(this);
-    this.#measure();
+    this.#fill();
     if (this.hasAttribute('src') && this.#facts === null) this.#loadSource();
     this.#animateIfNeeded();
   }
@@ -129,6 +134,19 @@ export class TrigonViewerElement extends HTMLElement {
   explain(x, y) {
     const part = this.#size[0] / this.clientWidth;
     return this.#ask('explain', { x: Math.floor(x * part), y: Math.floor(y * part) });
+  }
+
+  /**
+   * What the image costs at many settings, and how wrong it then is: a plot as SVG, whose first circles are the dots in
+   * their order, and the dots. `progress` events have the part that is done. Whatever changes the image cancels it.
+   */
+  measure() {
+    const [width, height] = this.#size;
+    return this.#ask('measure', { subject: `${this.#facts?.path}, ${width}×${height}, 1 thread, ${this.level}` });
+  }
+
+  cancelMeasurement() {
+    this.#worker?.postMessage({ request: 'cancel' });
   }
 
   /** The whole image once it is drawn, at once if it is. Rejects with an error that is reported before. */
@@ -220,6 +238,7 @@ export class TrigonViewerElement extends HTMLElement {
 
   #receive({ event, id, answer, error, ...image }) {
     if (event === 'image') return this.#show(image);
+    if (event === 'progress') return this.dispatchEvent(new CustomEvent('progress', { detail: image.part }));
     const waiting = this.#requests.get(id);
     this.#requests.delete(id);
     if (event === 'answer') return waiting?.resolve(answer);
@@ -252,7 +271,7 @@ export class TrigonViewerElement extends HTMLElement {
     this.dispatchEvent(new CustomEvent('render', { detail }));
   }
 
-  #measure() {
+  #fill() {
     const [width, height] = [this.clientWidth, this.clientHeight];
     if (width === 0 || height === 0) return;
     const part = Math.min(devicePixelRatio, 2, Math.sqrt(MOST_PIXELS / (width * height)));
@@ -298,7 +317,11 @@ export class TrigonViewerElement extends HTMLElement {
       case 'surface':
         return [['setStyle', value ?? 'surface']];
       case 'samples':
-        return [['setSamples', Math.min(4, Math.max(1, Number.parseInt(value ?? '3', 10) || 3))]];
+        return [['setSamples', whole(value, 3, 4)]];
+      case 'edge-samples':
+        return [['setEdgeSamples', 2 ** Math.floor(Math.log2(whole(value, 1, 16)))]];
+      case 'glass-bounces':
+        return [['setGlassBounces', whole(value, 8, 16)]];
       default:
         return [];
     }

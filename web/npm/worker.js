@@ -18,6 +18,8 @@ let rest = 0;
 /** The number of the last view that was requested. */
 let view = 0;
 let timer = null;
+/** What is measured now. */
+let measurement = null;
 
 function send(message, transfer = []) {
   postMessage(message, transfer);
@@ -58,6 +60,27 @@ function turn() {
   }
 }
 
+function cancel() {
+  measurement?.free();
+  measurement = null;
+}
+
+async function measure({ subject }) {
+  cancel();
+  const own = session.measurement(width, height, subject);
+  measurement = own;
+  for (let part = 0; part < 1; ) {
+    // Messages that have arrived meanwhile come first, and cancel it.
+    await new Promise((resolve) => setTimeout(resolve));
+    if (measurement !== own) throw new TrigonError({ kind: 'Cancelled', message: 'the measurement was cancelled' });
+    part = own.step();
+    send({ event: 'progress', part });
+  }
+  const result = JSON.parse(own.result());
+  cancel();
+  return result;
+}
+
 function fail(error, id) {
   const { kind, file, message } = TrigonError.from(error);
   send({ event: 'error', id, error: { kind, file, message } });
@@ -68,6 +91,7 @@ const REQUESTS = {
     return { level: await start(moduleUrl(level)) };
   },
   load({ files, path }) {
+    cancel();
     const facts = session.load(files, path);
     clearTimeout(timer);
     scale = 0;
@@ -80,6 +104,8 @@ const REQUESTS = {
   explain({ x, y }) {
     return session.explain(x, y, width, height);
   },
+  measure,
+  cancel,
   memory,
   get({ method }) {
     return session.call(method);
@@ -90,6 +116,7 @@ onmessage = async ({ data }) => {
   const { request, id } = data;
   if (request === 'view') {
     try {
+      cancel();
       view = data.view;
       if (data.size) [width, height] = data.size;
       for (const [method, ...parameters] of data.calls ?? []) session.call(method, ...parameters);

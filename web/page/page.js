@@ -1,5 +1,7 @@
 // The page around a <trigon-viewer>: opens files, and shows what is known of the model and of its pixels.
 
+import { offerFrontier } from './frontier.js';
+import { save, stem } from './save.js';
 import { TrigonError } from './trigon-viewer/trigon-viewer.js';
 
 const $ = (id) => document.getElementById(id);
@@ -150,9 +152,12 @@ function tell(facts) {
 }
 
 $('models').onchange = ({ target }) => open(files, target.value);
-for (const name of ['display', 'surface', 'samples', 'exposure']) {
+const SAMPLES = ['samples', 'edge-samples'];
+for (const name of ['display', 'surface', 'exposure', ...SAMPLES]) {
   $(name).oninput = () => {
     view.setAttribute(name, $(name).value);
+    // A setting of the plot may have changed it.
+    if (SAMPLES.includes(name)) view.removeAttribute('glass-bounces');
     forgetPixel();
   };
 }
@@ -208,7 +213,7 @@ function next(select, step) {
 
 addEventListener('keydown', (event) => {
   const { key, ctrlKey, metaKey, altKey, target } = event;
-  if (altKey || target instanceof HTMLSelectElement || target instanceof HTMLInputElement) return;
+  if (altKey || $('frontier').open || target instanceof HTMLSelectElement || target instanceof HTMLInputElement) return;
   if ((ctrlKey || metaKey) && key === 'o') {
     event.preventDefault();
     return $('files').click();
@@ -222,20 +227,25 @@ addEventListener('keydown', (event) => {
   }
   if (key === 'E') next($('surface'), 1);
   if (key === 'a') next($('samples'), 1);
-  if (key === 'F12') save();
+  if (key === 'F12') savePicture();
 });
 
 // Saving
 
-async function save() {
+async function savePicture() {
   try {
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(await view.toBlob());
-    link.download = `${view.facts.path.split('/').at(-1).replace(/\.[^.]+$/, '')}.png`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    save(await view.toBlob(), `${stem(view)}.png`);
   } catch (error) {
     report(error);
   }
 }
-$('save').onclick = save;
+$('save').onclick = savePicture;
+
+// Error against time
+
+offerFrontier(({ samples, edgeSamples, glassBounces }) => {
+  [$('samples').value, $('edge-samples').value] = [samples, edgeSamples];
+  for (const name of SAMPLES) view.setAttribute(name, $(name).value);
+  view.setAttribute('glass-bounces', glassBounces);
+  forgetPixel();
+}, report);

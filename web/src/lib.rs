@@ -4,6 +4,7 @@
 
 mod facts;
 mod files;
+mod measurement;
 mod model;
 mod refusal;
 

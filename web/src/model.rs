@@ -9,6 +9,7 @@ use trigon_io::{Limits, LoadOptions, Pixels, encode_png, load_from_files};
 use trigon_math::{Bounds3, DVec3, elementary};
 use trigon_scene::{
     Background, Display, Frame, OVERVIEW_DIRECTION, RenderSettings, Renderer, Scene, Style, css_color,
+    quality::Quality,
 };
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -25,8 +26,8 @@ pub struct Model {
     orbit: Orbit,
     renderer: Renderer,
     frame: Arc<Frame>,
-    /// Along each side of a pixel, of images that are no drafts.
-    samples_per_axis: u32,
+    /// Of images that are no drafts.
+    quality: Quality,
 }
 
 /// The size of images until the page sets another one, as that of the viewer.
@@ -55,7 +56,7 @@ impl Model {
             orbit: Orbit::new(scene.up.direction()),
             scene,
             facts,
-            samples_per_axis: settings.samples_per_axis,
+            quality: Quality::of(&settings),
             renderer: Renderer::new(settings),
             frame: Arc::default(),
         };
@@ -91,7 +92,19 @@ impl Model {
     /// Sets how many samples there are along each side of a pixel, 1 to 4, in images that are no drafts.
     #[wasm_bindgen(js_name = setSamples)]
     pub fn set_samples(&mut self, per_axis: u32) {
-        self.samples_per_axis = per_axis;
+        self.quality.samples_per_axis = per_axis;
+    }
+
+    /// Sets how many samples take the place of each of these where faces end: 1, 2, 4, 8 or 16.
+    #[wasm_bindgen(js_name = setEdgeSamples)]
+    pub fn set_edge_samples(&mut self, samples: u32) {
+        self.quality.samples = samples;
+    }
+
+    /// Sets how many surfaces a ray through glass may meet, 1 to 16.
+    #[wasm_bindgen(js_name = setGlassBounces)]
+    pub fn set_glass_bounces(&mut self, bounces: u32) {
+        self.quality.glass_bounces = bounces;
     }
 
     /// The pointer was dragged with the model in its hand, by parts of the image's height.
@@ -217,8 +230,9 @@ impl Model {
     /// A JSON text: the size or a setting is out of range.
     pub fn draw(&mut self, is_draft: bool) -> Result<(), String> {
         let camera = self.camera();
-        let samples_per_axis = if is_draft { 1 } else { self.samples_per_axis };
-        self.renderer.settings_mut().samples_per_axis = samples_per_axis;
+        let quality =
+            if is_draft { Quality { samples_per_axis: 1, samples: 1, ..self.quality } } else { self.quality };
+        quality.apply(self.renderer.settings_mut());
         let drawn = if is_draft {
             self.renderer.render_draft(&self.scene, &camera, None)
         } else {
@@ -252,7 +266,7 @@ impl Model {
     /// A JSON text: the image cannot be drawn, or the pixel lies outside of it.
     pub fn explain(&mut self, x: u32, y: u32) -> Result<String, String> {
         let camera = self.camera();
-        self.renderer.settings_mut().samples_per_axis = self.samples_per_axis;
+        self.quality.apply(self.renderer.settings_mut());
         let pixel = self.renderer.explain_pixel(&self.scene, &camera, x, y).map_err(Refusal::of_image)?;
         let pixel = pixel.ok_or_else(|| Refusal::of_image("the pixel lies outside of the image"))?;
         let visible = pixel.reported().visible();
@@ -262,8 +276,19 @@ impl Model {
         Ok(json(&Explanation { name, face, text: pixel.to_string() }))
     }
 
-    fn camera(&self) -> Camera {
+    pub(crate) fn camera(&self) -> Camera {
         self.orbit.camera(&self.bounds)
+    }
+
+    pub(crate) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Of images that are no drafts.
+    pub(crate) fn image_settings(&self) -> RenderSettings {
+        let mut settings = self.renderer.settings().clone();
+        self.quality.apply(&mut settings);
+        settings
     }
 }
 
@@ -276,6 +301,6 @@ struct Explanation {
     text: String,
 }
 
-fn json(value: &impl Serialize) -> String {
+pub(crate) fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_else(|error| Refusal::of_image(error))
 }

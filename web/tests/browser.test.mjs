@@ -61,9 +61,9 @@ const shown = (page) =>
     return [...new Uint8Array(digest)].join(' ');
   });
 
-async function openWith(...paths) {
-  const page = await open();
-  await drop(page, ...paths);
+async function openWith(paths, size) {
+  const page = await open(size);
+  await drop(page, ...[paths].flat());
   await page.waitForFunction(() => !document.body.classList.contains('empty'));
   await settled(page);
   return page;
@@ -150,6 +150,48 @@ test('outputs and surfaces change the image', async () => {
   await page.close();
 });
 
+test('a view is measured at many settings, and a chosen dot sets its own', async () => {
+  const page = await openWith(cube, { width: 760, height: 480 });
+  const before = await shown(page);
+  await page.locator('#measure').click();
+  await page.locator('#frontier').waitFor({ timeout: 300_000 });
+  await page.screenshot({ path: join(shots, 'frontier.png') });
+  const dots = await page.locator('#frontier circle[role]').evaluateAll((circles) =>
+    circles.map((circle) => [circle.getAttribute('aria-label'), Number(circle.getAttribute('cx'))]),
+  );
+  const time = ([label]) => Number(/: ([^ ]+) ms/.exec(label)[1]);
+  const byTime = dots.toSorted((a, b) => time(a) - time(b));
+  assert.ok(dots.length > 10, `${dots.length} dots`);
+  // Labels have three digits: dots that are as far to the right may be in either order.
+  byTime.forEach(([label, x], index) => assert.ok(index === 0 || x >= byTime[index - 1][1] - 1, `${label} lies where its time is`));
+  await page.locator('#frontier circle[aria-label^="reference: "]').press('Enter');
+  assert.equal(await page.locator('#frontier').isVisible(), false);
+  const samples = () => Promise.all(['#samples', '#edge-samples'].map((select) => page.locator(select).inputValue()));
+  assert.deepEqual(await samples(), ['4', '16']);
+  const reference = await shown(page);
+  assert.notEqual(reference, before);
+  await page.locator('#plot-again').click();
+  await page.locator('#frontier circle[aria-label^="draft: "]').click();
+  assert.deepEqual(await samples(), ['1', '1']);
+  assert.notEqual(await shown(page), reference);
+  await page.close();
+});
+
+test('whatever changes the view cancels a measurement', async () => {
+  const page = await openWith(cube);
+  for (const cancel of [() => page.locator('#cancel').click(), () => page.mouse.wheel(0, 300)]) {
+    await page.locator('#measure').click();
+    await page.waitForFunction(() => document.getElementById('measured').value > 0);
+    await page.mouse.move(450, 400);
+    await cancel();
+    await page.locator('#measure').waitFor();
+    assert.equal(await page.locator('#frontier').isVisible(), false);
+    assert.equal(await page.getByRole('alert').count(), 0);
+  }
+  await settled(page);
+  await page.close();
+});
+
 test('the page fits a telephone', async () => {
   const page = await open({ width: 390, height: 760 });
   await drop(page, mug);
@@ -166,12 +208,13 @@ test('attributes of an element change its image', async () => {
   const seen = new Set([await shown(page)]);
   const changes = {
     background: 'transparent', exposure: '0.5', 'camera-orbit': '120deg 60deg 105%', 'field-of-view': '60deg', display: 'matcap',
+    samples: '1', 'edge-samples': '4',
   };
   for (const [name, value] of Object.entries(changes)) {
     await page.evaluate(([name, value]) => document.querySelector('trigon-viewer').setAttribute(name, value), [name, value]);
     seen.add(await shown(page));
   }
-  assert.equal(seen.size, 6);
+  assert.equal(seen.size, 8);
   const error = await page.evaluate(() => {
     const view = document.querySelector('trigon-viewer');
     const told = new Promise((resolve) => view.addEventListener('error', ({ detail }) => resolve(detail.message)));

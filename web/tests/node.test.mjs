@@ -68,6 +68,22 @@ test('memory does not grow with the number of models', async () => {
   session.close();
 });
 
+test('an image is measured at many settings', () => {
+  const session = new Session();
+  const name = 'cube_textured.glb';
+  session.load(new Map([[name, read(join(corpus, 'ok', name))]]), name);
+  const measurement = session.measurement(40, 30, 'a <cube>');
+  while (measurement.step() < 1);
+  const { svg, dots } = JSON.parse(measurement.result());
+  measurement.free();
+  session.close();
+  assert.match(svg, /a &lt;cube&gt;/);
+  const [draft, reference] = ['draft', 'reference'].map((preset) => dots.find(({ name }) => name === preset));
+  assert.deepEqual([draft.samples, draft.edgeSamples, reference.samples, reference.edgeSamples], [1, 1, 4, 16]);
+  assert.ok(reference.error === 0 && draft.error > 0, `${draft.error}`);
+  assert.ok(dots.every(({ milliseconds: [low, median, high] }) => low <= median && median <= high));
+});
+
 test('a file that is none is an error that names it', () => {
   const session = new Session();
   assert.throws(
