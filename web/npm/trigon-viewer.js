@@ -26,6 +26,13 @@ function quantity(text) {
   return scale === undefined ? null : { value: Number(number) * scale, unit };
 }
 
+/** Browsers start workers of the page's own origin only; such a one may import from where this package is served. */
+const WORKER = (() => {
+  const address = new URL('./worker.js', import.meta.url);
+  if (address.origin === location.origin) return address;
+  return URL.createObjectURL(new Blob([`import ${JSON.stringify(address)};`], { type: 'text/javascript' }));
+})();
+
 /** A number from 1 on. */
 function whole(text, usual, most) {
   return Math.min(most, Math.max(1, Number.parseInt(text, 10) || usual));
@@ -211,7 +218,7 @@ export class TrigonViewerElement extends HTMLElement {
 
   #start() {
     if (this.#worker !== null) return this.#started;
-    const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+    const worker = new Worker(WORKER, { type: 'module' });
     this.#worker = worker;
     worker.onmessage = ({ data }) => this.#receive(data);
     worker.onerror = ({ message }) => this.#stop(new TrigonError({ kind: 'Read', message: `the renderer cannot be loaded (${message ?? 'see the console'}); check that all files of trigon-viewer are served` }));

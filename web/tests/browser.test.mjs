@@ -225,6 +225,20 @@ test('attributes of an element change its image', async () => {
   await page.close();
 });
 
+test('a page may load the element from another server', async () => {
+  const page = await browser.newPage();
+  await page.goto(`${address.replace('127.0.0.1', 'localhost')}style.css`);
+  const shown = await page.evaluate(async (address) => {
+    await import(`${address}trigon-viewer/trigon-viewer.js`);
+    const view = document.createElement('trigon-viewer');
+    document.body.append(view);
+    view.setAttribute('src', `${address}examples/mug.obj`);
+    return view.settled();
+  }, address);
+  assert.deepEqual([shown.width, shown.height, shown.isDraft], [300, 150, false]);
+  await page.close();
+});
+
 test('500 models in the page take no more memory than 20', async () => {
   const page = await openWith(cube);
   const memory = await page.evaluate(async (text) => {

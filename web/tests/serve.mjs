@@ -16,7 +16,9 @@ export async function serve(...folders) {
     const files = folders.map((folder) => join(folder, path.endsWith('/') ? `${path}index.html` : path));
     const file = files.find((file) => existsSync(file) && statSync(file).isFile());
     if (file === undefined) return response.writeHead(404).end();
-    response.writeHead(200, { 'content-type': TYPES[extname(file)] ?? 'application/octet-stream' });
+    // As hosts of packages do: another page may load these.
+    const headers = { 'access-control-allow-origin': '*' };
+    response.writeHead(200, { ...headers, 'content-type': TYPES[extname(file)] ?? 'application/octet-stream' });
     createReadStream(file).pipe(response);
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
