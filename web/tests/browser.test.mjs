@@ -132,9 +132,10 @@ test('an error names the file and stays until it is dismissed', async () => {
   assert.ok(await error.isVisible());
   await error.getByRole('button').click();
   assert.equal(await page.getByRole('alert').count(), 0);
-  await drop(page, cube);
-  await page.waitForTimeout(100);
-  assert.equal(await shown(page), before, 'the next model is shown');
+  assert.equal(await shown(page), before, 'the model before is still there');
+  await drop(page, mug);
+  await page.locator('#name', { hasText: 'mug.obj' }).waitFor();
+  assert.notEqual(await shown(page), before, 'the next model is shown');
   await page.close();
 });
 
