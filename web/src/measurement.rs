@@ -31,7 +31,10 @@ impl Measurement {
     #[must_use]
     pub fn new(model: &Model, subject: String) -> Self {
         let (scene, settings) = (model.scene().clone(), model.image_settings());
-        Self { sweep: Sweep::new(scene, model.camera(), &settings, SweepOptions::default()), subject }
+        let mut options = SweepOptions::default();
+        // Pages have no setting for light per vertex.
+        options.qualities.retain(|quality| quality.shading == settings.shading);
+        Self { sweep: Sweep::new(scene, model.camera(), &settings, options), subject }
     }
 
     /// Draws the next image. Returns which part of all is drawn: 1 at the end.
