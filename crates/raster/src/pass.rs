@@ -170,7 +170,7 @@ mod tests {
             let target = Target::new(480, 288, &[output]).expect("a sound size");
             Pass::new().is_worth_sharing(&target)
         };
-        assert!(is_shared(Output::Srgb8), "milliseconds");
-        assert!(!is_shared(Output::Depth), "a seventh of a millisecond");
+        assert!(is_shared(Output::Srgb8), "it takes milliseconds");
+        assert!(!is_shared(Output::Depth), "it takes a seventh of a millisecond");
     }
 }

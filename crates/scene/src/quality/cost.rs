@@ -12,9 +12,9 @@ use crate::settings::{RenderSettings, ShadingModel};
 const UNITS: usize = 8;
 
 /// Nanoseconds per unit before anything was measured. Only their proportions count, and only until
-/// frames have given better values; they are those of the built-in scene on two threads. Rays to lamps with
-/// an extent take as long as those of ambient occlusion, but settings cannot tell whether a scene has such lamps,
-/// and most have none.
+/// frames have given better values; they are those of the built-in scene on two threads. A ray to a lamp with
+/// an extent counts a quarter of one of ambient occlusion: it takes as long, but settings cannot tell whether a scene has
+/// such lamps, and most have none.
 const USUAL: [f64; UNITS] = [500_000.0, 4.0, 15.0, 4.0, 10.0, 60.0, 40.0, 10.0];
 
 /// The weight of the default proportions relative to a measured frame.
@@ -202,7 +202,7 @@ mod tests {
         }
     }
 
-    /// The reference has 1,024 rays to each of these lamps in each pixel, the others the 64 of a few pixels or none.
+    /// To each of these lamps the reference casts 1,024 rays in each pixel, the others a few that pixels share, or none.
     #[test]
     fn the_reference_is_foreseen_with_lamps_of_an_extent_and_without() {
         for nanoseconds in [0.0, 40.0, 200.0] {

@@ -109,13 +109,13 @@ fn usual_qualities() -> Vec<Quality> {
     let by_rays = |quality| Quality { shadows: high.shadows, ..quality };
     let between = [
         samples(draft, 16),
+        samples(standard, 4),
         samples(standard, 8),
+        nine,
         samples(nine, 4),
-        samples(high, 2),
         samples(reference, 8),
         by_rays(draft),
         by_rays(standard),
-        by_rays(nine),
     ];
     candidates().into_iter().chain(between).collect()
 }

@@ -295,8 +295,8 @@ mod recorded {
         }
     }
 
-    /// What has twice the samples, and else is the same, takes no less time, beyond the quartiles of both; but for one pair in two hundred, as
-    /// the page says: a quarter of the frames lies beyond each quartile, and there are few frames.
+    /// What has twice the samples, and else is the same, takes no less time, beyond the quartiles of both; but for one pair in
+    /// two hundred: a quarter of the frames lies beyond each quartile, and there are few frames.
     #[test]
     fn hardly_a_time_contradicts_another() {
         let [pairs, contradicting] = page::contradictions(&chapters::tests::rows("frames"));

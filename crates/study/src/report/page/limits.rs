@@ -70,11 +70,12 @@ pub(super) fn limit(of: &Setting, all: &[Setting], floor: f64) -> String {
     }
 }
 
-/// Pairs of settings in the same scene, or over all of them, of which one has at least twice the samples of the other and else is the same, and
+/// Pairs of settings in the same scene of which one has at least twice the samples of the other and else is the same, and
 /// those among them whose times contradict that: the one with more is faster, and the quartiles of both lie apart.
 pub(in crate::report) fn contradictions(rows: &[Row]) -> [usize; 2] {
+    let means = [Sweep::small, Sweep::large].map(|sweep| sweep([1, 1]).means());
     let mut counts = [0; 2];
-    for less in rows {
+    for less in rows.iter().filter(|row| !means.contains(&row.case)) {
         for more in rows.iter().filter(|more| more.case == less.case) {
             let [Some([low, _]), Some([_, high])] = [less.quartiles(TIME), more.quartiles(TIME)] else {
                 continue;

@@ -46,7 +46,7 @@ pub(super) fn page(recorded: &Recorded<'_>) -> String {
     let [pairs, contradicting] = contradictions(recorded.frames);
     let _ = write!(
         text,
-        "\n## How right are the times?\n\nOf {pairs} pairs of settings in the same scene, or over all of them, of which one has at least twice the samples of the other \
+        "\n## How right are the times?\n\nOf {pairs} pairs of settings in the same scene, of which one has at least twice the samples of the other \
          and is the same otherwise, {contradicting} contradict that: the one with more was faster, and the quartiles of both lie apart. Of times that differ by \
          less than a fifth either may be the shorter one, as those of the texture filters show.\n",
     );
