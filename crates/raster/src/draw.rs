@@ -89,6 +89,18 @@ impl<'a, P> Draw<'a, P> {
     }
 }
 
+/// Where the vertices of a draw lie: see [`Pass::bounds`](crate::Pass::bounds). In clip coordinates divided by w, as pipelines
+/// return them; every w must be greater than 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawBounds {
+    /// The least x / w and y / w.
+    pub least: [f64; 2],
+    /// The greatest x / w and y / w.
+    pub greatest: [f64; 2],
+    /// The greatest z / w, the depth of the nearest vertex.
+    pub nearest: f64,
+}
+
 /// Whether a line or a point is anti-aliased.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Smoothing {

@@ -128,7 +128,8 @@ mod viewport;
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
 pub use draw::{
-    BlendMode, Culling, Draw, Lines, MarkColors, MarkedPoints, Marks, PointShape, Points, Smoothing,
+    BlendMode, Culling, Draw, DrawBounds, Lines, MarkColors, MarkedPoints, Marks, PointShape, Points,
+    Smoothing,
 };
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,

@@ -1,5 +1,6 @@
 //! A recorded pass: the draws of one frame.
 
+use crate::draw::DrawBounds;
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::paint2d::Rect;
 use crate::pipeline::AnyPipeline;
@@ -25,6 +26,14 @@ pub(crate) struct RecordedDraw<'a> {
     pub(crate) pipeline: &'a dyn AnyPipeline,
 }
 
+/// Where a draw of the pass lies.
+#[derive(Clone, Copy)]
+pub(crate) struct BoundedDraw {
+    /// Its index in the pass.
+    pub(crate) draw: u32,
+    pub(crate) bounds: DrawBounds,
+}
+
 /// A recorded frame: draws, each with its own pipeline, in any order.
 ///
 /// The order in which draws of different objects are recorded does not matter: the nearest sample is visible, and
@@ -33,6 +42,8 @@ pub(crate) struct RecordedDraw<'a> {
 pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
     pub(crate) draws: Vec<RecordedDraw<'a>>,
+    /// Of some draws, in their order.
+    pub(crate) bounds: Vec<BoundedDraw>,
     pub(crate) scissor: Option<Rect>,
     pub(crate) edges: Option<FaceEdges>,
     pub(crate) marks: Option<MarkColors>,
@@ -51,6 +62,7 @@ impl<'a> Pass<'a> {
         Self {
             background: Background::Color(Vec4::ZERO),
             draws: Vec::new(),
+            bounds: Vec::new(),
             scissor: None,
             edges: None,
             marks: None,
@@ -107,6 +119,19 @@ impl<'a> Pass<'a> {
         let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, blend_mode } = draw;
         let shape = Shape::Triangles { triangles, edge_flags, marks: marks.map(Box::new), culling };
         self.record(pipeline, Geometry { shape, faces, common_face: None, object, blend_mode })
+    }
+
+    /// Says where the vertices of the last draw lie, which must be triangles. In frames of many large draws,
+    /// [`Rasterizer::draw`](crate::Rasterizer::draw) can then leave out those that are hidden as a whole: none of their
+    /// vertices run, and [`Stats`](crate::Stats) do not count them.
+    ///
+    /// No byte depends on it. If a vertex lies elsewhere, its draw may be missing where it should be visible; nothing worse
+    /// happens.
+    pub fn bounds(&mut self, bounds: DrawBounds) -> &mut Self {
+        if let Some(last) = self.draws.len().checked_sub(1) {
+            self.bounds.push(BoundedDraw { draw: last as u32, bounds });
+        }
+        self
     }
 
     /// Records lines.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Stats {
-    /// Triangles, segments and points recorded.
+    /// Triangles, segments and points recorded, without those of draws that are left out ([`Pass::bounds`](crate::Pass::bounds)).
     pub primitives: u64,
     /// Vertices that went through the vertex stage.
     pub vertices: u64,

@@ -5,6 +5,7 @@
 //! | `layout` | what is known before any vertex runs |
 //! | `stages` | **the stages of a whole frame**, in their order |
 //! | `set_up` | sets up primitives, chunk by chunk |
+//! | `occlusion` | which draws are hidden as a whole, before their vertices run |
 //! | `tiles` | draws one tile, or only what changed in a cached tile |
 //! | `redraw` | **the stages of a frame that differs little from the last one** |
 //! | `change` | whether a change can be followed; the set of tiles to draw again |
@@ -15,6 +16,7 @@ mod change;
 mod changed_vertices;
 mod layout;
 mod moving;
+mod occlusion;
 mod redraw;
 mod set_up;
 mod stages;

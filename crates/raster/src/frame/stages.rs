@@ -6,6 +6,7 @@ use super::change::Signature;
 use super::changed_vertices::{ChangedVertices, VertexValues};
 use super::layout::{Layout, VERTICES};
 use super::moving::MovingPrimitives;
+use super::occlusion::Occlusion;
 use super::set_up::SetUpContext;
 use super::tiles::{Scratch, TileCache, draw_tile};
 use crate::bin::Chunk;
@@ -17,6 +18,7 @@ use crate::vertex::{ScreenVertex, VertexDestination};
 use crate::view::{BackgroundRow, FrameView, Plan};
 use crate::viewport::Viewport;
 use crate::{StageTimes, Stats, Target};
+use fixedbitset::FixedBitSet;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -33,6 +35,7 @@ pub(crate) struct Arena {
     pub(super) last_signature: Option<Signature>,
     pub(super) changed_vertices: ChangedVertices,
     pub(super) moving: MovingPrimitives,
+    occlusion: Occlusion,
 }
 
 /// Draws a pass into a target.
@@ -43,10 +46,27 @@ pub(crate) fn draw(
     options: FrameOptions<'_>,
 ) -> Stats {
     let mut scratches = std::mem::take(&mut arena.scratches);
-    let view = prepare(arena, pass, target, options);
-    let stats = finish(&view, None, target, options, &mut scratches);
-    arena.scratches = scratches;
+    let mut occlusion = std::mem::take(&mut arena.occlusion);
+    let mut clock = Clock::new(options.timed);
+    let is_searched = occlusion.choose(pass, target, options);
+    let mut earlier = StageTimes::default();
+    if is_searched {
+        let front = prepare_draws(arena, pass, Some(occlusion.drawn()), target, options);
+        warm(&mut scratches, options);
+        occlusion.leave_out(&front, options, &mut scratches);
+        earlier.visibility = clock.lap();
+    }
+    let drawn = is_searched.then(|| occlusion.drawn());
+    let view = prepare_draws(arena, pass, drawn, target, options);
+    let mut stats = finish(&view, None, target, options, &mut scratches);
+    stats.times += earlier;
+    (arena.scratches, arena.occlusion) = (scratches, occlusion);
     stats
+}
+
+/// Sees to it that each worker has memory. That of workers that rest in this frame is held for the next one.
+fn warm(scratches: &mut Vec<Scratch>, options: FrameOptions<'_>) {
+    scratches.resize_with(options.workers.count().max(scratches.len()), Scratch::new);
 }
 
 /// The tiles of a frame that may differ from those of the last one.
@@ -66,8 +86,7 @@ pub(super) fn finish(
 ) -> Stats {
     let mut stats = Stats { times: view.times, ..count(view) };
     let bands = Bands::new(target, view.grid.size / view.supersampling);
-    // The memory of workers that rest in this frame is held for the next one.
-    scratches.resize_with(options.workers.count().max(scratches.len()), Scratch::new);
+    warm(scratches, options);
     draw_tiles(view, tiles, &bands, options, scratches);
     for scratch in scratches {
         stats += std::mem::take(&mut scratch.stats);
@@ -82,11 +101,22 @@ pub(crate) fn prepare<'f>(
     target: &Target<'_>,
     options: FrameOptions<'_>,
 ) -> FrameView<'f> {
+    prepare_draws(arena, pass, None, target, options)
+}
+
+/// The same for some draws of the pass.
+fn prepare_draws<'f>(
+    arena: &'f mut Arena,
+    pass: &'f Pass<'_>,
+    drawn: Option<&FixedBitSet>,
+    target: &Target<'_>,
+    options: FrameOptions<'_>,
+) -> FrameView<'f> {
     let layout = Layout::new(pass, target, options);
     let grid = layout.grid;
     arena.last_signature = None;
     let Arena { plan, screen_vertices, varyings, chunks, .. } = arena;
-    let used = plan.make(&pass.draws, chunks, options.workers.count(), layout.axis);
+    let used = plan.make(&pass.draws, drawn, chunks, options.workers.count(), layout.axis);
     let chunks = &mut chunks[..used];
     screen_vertices.resize(plan.vertices, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);

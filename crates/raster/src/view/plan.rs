@@ -5,6 +5,7 @@ use crate::bin::Chunk;
 use crate::pass::RecordedDraw;
 use crate::point::PlainPoints;
 use crate::vertex::{Slots, UsedVertices};
+use fixedbitset::FixedBitSet;
 use std::ops::Range;
 
 /// The fewest primitives of a chunk: enough to be worth handing to a worker.
@@ -67,11 +68,12 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// Plans a frame for a number of workers, with so many internal pixels for each pixel and axis,
-    /// and cuts it into chunks. Returns how many of `chunks` are used, from the first on, in the order
+    /// and cuts it into chunks. If `drawn` is given, all other draws are left out. Returns how many of `chunks` are used, from the first on, in the order
     /// of their ordinals.
     pub(crate) fn make(
         &mut self,
         recorded: &[RecordedDraw<'_>],
+        drawn: Option<&FixedBitSet>,
         chunks: &mut Vec<Chunk>,
         workers: usize,
         supersampling: u32,
@@ -80,7 +82,9 @@ impl Plan {
         self.listed.clear();
         self.points.clear();
         (self.vertices, self.varyings) = (0, 0);
-        self.draws.extend(recorded.iter().zip(0..).map(|(draw_of_pass, draw)| {
+        let is_drawn = |draw: u32| drawn.is_none_or(|drawn| drawn.contains(draw as usize));
+        let needed = recorded.iter().zip(0..).filter(|&(_, draw)| is_drawn(draw));
+        self.draws.extend(needed.map(|(draw_of_pass, draw)| {
             let RecordedDraw { geometry, pipeline } = draw_of_pass;
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
             let points = plain_points(draw_of_pass, supersampling).map(|looks| {

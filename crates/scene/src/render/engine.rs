@@ -12,6 +12,7 @@ use trigon_raster::{
 };
 
 use super::RenderError;
+use super::bounds::record_all;
 use super::compose::Composer;
 use super::effect_caches::{Destination, EffectCaches};
 use super::fisheye::EyeTriangleCache;
@@ -247,7 +248,7 @@ impl Engine {
         // Effects do not matter for it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();
-        draws.iter().for_each(|draw| draw.record(&mut pass));
+        record_all(&draws, &mut pass);
         let into = Destination { target: blank(settings)?, frame, needed: Needed::of(&settings.outputs) };
         self.stats += self.caches.draw_ids(&pass, settings, into, rasterizer)?;
         Ok(())
@@ -308,7 +309,7 @@ pub(super) fn record<T>(
     if !settings.marks.is_plain() {
         pass.marks(settings.marks.colors());
     }
-    draws.iter().for_each(|draw| draw.record(&mut pass));
+    record_all(&draws, &mut pass);
     draw(&pass, &draws)
 }
 

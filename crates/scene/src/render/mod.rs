@@ -9,10 +9,12 @@
 //! | `wire` | pipelines of edges, lines, points, and faces that only hide |
 //! | `fisheye`, `lens_frame` | images through lenses that rays draw; the steps of their frames |
 //! | `record` | draws that own their pipelines, until they are recorded in a pass |
+//! | `bounds` | records them, in large scenes with where they lie in the image |
 //! | `last_frame` | whether the last image may be reused, and for which effects not |
 //! | `effect_caches` | what effects keep from frame to frame |
 //! | `shared_frames` | frames that a window shows, drawn into again once it releases them |
 
+mod bounds;
 mod compose;
 mod effect_caches;
 mod engine;

@@ -4,6 +4,7 @@
 use trigon_math::Vec4;
 use trigon_raster::{Background, Pass, Rasterizer, Stats, Target, TargetError};
 
+use super::bounds::record_all;
 use super::compose::Composer;
 use super::engine::Engine;
 use crate::effect_settings::RaySampling;
@@ -66,7 +67,7 @@ fn draw_openness(
     let draws = composer.draws(&mut Counts::default());
     let mut pass = Pass::new();
     pass.background(Background::Color(Vec4::ZERO));
-    draws.iter().for_each(|draw| draw.record(&mut pass));
+    record_all(&draws, &mut pass);
     let full = TargetError::Memory { width: view.width, height: view.height };
     let pixels = view.width as usize * view.height as usize;
     let (mut found, mut depths) = (Vec::new(), Vec::new());

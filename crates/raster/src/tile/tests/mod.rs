@@ -3,6 +3,7 @@
 //! The search finds coverage, facing and samples by itself, in whole numbers. Its depths are those of [`DepthPlane`], because
 //! it has to find the same ties to the bit; the property `depth_plane` of the workspace's tests holds these to rational numbers.
 
+mod hidden;
 mod layers;
 mod marks;
 mod points;
@@ -13,12 +14,12 @@ use crate::simd::SimdLevel;
 use crate::tile_buffer::BEHIND_ALL;
 use crate::vertex::ScreenVertex;
 use crate::{
-    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer,
-    Stats, Target, TileSize, VertexOutput,
+    BlendMode, Culling, DepthTest, Draw, DrawBounds, ExecuteSettings, Fragment, Output, Pass, Pipeline,
+    Rasterizer, Stats, Target, TileSize, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
-use trigon_math::{Fixed, FixedPoint, Vec4};
+use trigon_math::{Bounds3, Fixed, FixedPoint, Vec4};
 
 /// No whole number of tiles, of blocks or of groups.
 const SIZE: [i32; 2] = [75, 45];
@@ -44,6 +45,15 @@ struct Heap {
     faces: Vec<u32>,
     /// The light of the first.
     light: u32,
+}
+
+impl Heap {
+    fn bounds(&self) -> DrawBounds {
+        let positions =
+            (0..self.vertex_count()).map(|index| self.vertex(index).position.truncate().as_dvec3());
+        let Bounds3 { min, max } = Bounds3::from_points(positions);
+        DrawBounds { least: [min.x, min.y], greatest: [max.x, max.y], nearest: max.z }
+    }
 }
 
 impl Pipeline for Heap {
@@ -254,7 +264,7 @@ fn draw(heaps: &[Heap], settings: ExecuteSettings, samples: u32) -> (Target<'sta
         let faces = (!heap.faces.is_empty()).then_some(&heap.faces[..]);
         let draw =
             Draw { object: heap.object, blend_mode: heap.blend_mode, faces, ..Draw::new(heap, indices) };
-        pass.triangles(Draw { culling: heap.culling, ..draw });
+        pass.triangles(Draw { culling: heap.culling, ..draw }).bounds(heap.bounds());
     }
     let [width, height] = SIZE.map(|side| side as u32);
     let target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();

@@ -1,5 +1,6 @@
 //! Edges on surfaces: black on white, unlit, before white.
 
+mod hidden;
 mod marks;
 mod wires;
 
