@@ -93,7 +93,9 @@ impl Bounded {
 impl Occlusion {
     /// Chooses the draws in front; false if a search is not worth it.
     pub(super) fn choose(&mut self, pass: &Pass<'_>, target: &Target<'_>, options: FrameOptions<'_>) -> bool {
-        if pass.bounds.is_empty() || pass.scissor.is_some() || !options.hierarchical {
+        // Ink reaches beyond the boxes of the triangles whose edges it draws.
+        let has_ink = pass.edges.is_some() || pass.marks.is_some();
+        if pass.bounds.is_empty() || pass.scissor.is_some() || has_ink || !options.hierarchical {
             return false;
         }
         self.rest = self.rest.saturating_sub(1);
