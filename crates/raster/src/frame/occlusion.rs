@@ -207,6 +207,7 @@ fn find_depths(front: &FrameView<'_>, scratch: &mut Scratch, tile: u32, depths: 
     }
     state.begin(front, tile);
     resolve_visibility(front, &area, state, &surfaces, shading, &mut Stats::default());
+    state.buffer.bring_outside_near(&area);
     at_level!(front.token, simd => state.buffer.refresh_all(simd, &area));
     *depths = state.buffer.blocks.farthest;
 }

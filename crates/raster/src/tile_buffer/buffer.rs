@@ -144,13 +144,24 @@ impl VisibilityBuffer {
 
     /// Removes the triangles of samples outside the image.
     pub(crate) fn blank_outside(&mut self, area: &TileArea) {
+        self.each_outside(area, |buffer, index| buffer.visible[index] = NO_TRIANGLE);
+    }
+
+    /// Brings samples outside the image before all others, so that they decide no farthest depth.
+    pub(crate) fn bring_outside_near(&mut self, area: &TileArea) {
+        self.each_outside(area, |buffer, index| buffer.depth[index] = f32::INFINITY);
+        self.forget_nearest();
+    }
+
+    /// Does something to each sample outside the image, by its index in the arrays.
+    fn each_outside(&mut self, area: &TileArea, change: impl Fn(&mut Self, usize)) {
         if area.size == area.padded() {
             return;
         }
         for pixel in (0..self.span).filter(|&pixel| !area.contains(TileArea::pixel_at(pixel))) {
             for sample in 0..self.samples {
                 let index = self.index(pixel, sample);
-                self.visible[index] = NO_TRIANGLE;
+                change(self, index);
             }
         }
     }

@@ -68,8 +68,8 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// Plans a frame for a number of workers, with so many internal pixels for each pixel and axis,
-    /// and cuts it into chunks. If `drawn` is given, all other draws are left out. Returns how many of `chunks` are used, from the first on, in the order
-    /// of their ordinals.
+    /// and cuts it into chunks. If `drawn` is given, all other draws are left out. Returns how many of
+    /// `chunks` are used, from the first on, in the order of their ordinals.
     pub(crate) fn make(
         &mut self,
         recorded: &[RecordedDraw<'_>],

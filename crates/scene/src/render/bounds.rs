@@ -8,7 +8,7 @@ use super::record::{DrawSource, Record};
 use crate::placement::Placement;
 
 /// Scenes of fewer triangles are drawn before much could be saved. In tests all scenes count as large.
-const LARGE: usize = if cfg!(test) { 0 } else { 1 << 20 };
+const LARGE: usize = if cfg!(test) { 1 } else { 1 << 20 };
 
 /// Records the draws of a pass.
 pub(super) fn record_all<'a>(draws: &'a [Box<dyn Record + '_>], pass: &mut Pass<'a>) {
