@@ -4,6 +4,7 @@
 //!
 //! Without `--instructions`, which needs valgrind and takes many minutes, that column is left out.
 
+mod callgrind;
 mod measure;
 mod page;
 mod subjects;
@@ -14,7 +15,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use measure::{Shots, instructions, quarters};
+use callgrind::instructions;
+use measure::{Shots, quarters};
 use page::{Cost, INTRODUCTION, OTHERS};
 use subjects::{SUBJECTS, Subject, shown};
 use trigon_camera::Camera;
@@ -55,7 +57,8 @@ fn write(folder: &Path, is_counted: bool) -> Result<(), Box<dyn Error>> {
         write!(text, "\n## {name}\n\n{}", page::head(is_counted))?;
         missing.retain(|effect| pairs.iter().all(|pair| pair.effect != *effect));
         let counted = if is_counted { shots.count() } else { 0 };
-        let counts: Result<Vec<f64>, _> = (0..counted).map(|shot| instructions(name, shot)).collect();
+        let count = |shot: usize| instructions(&["count", name, &shot.to_string()]);
+        let counts: Result<Vec<f64>, _> = (0..counted).map(count).collect();
         let counts = counts?;
         for pair in &pairs {
             let names = images(name, &camera, pair, folder)?;

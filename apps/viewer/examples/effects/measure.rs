@@ -1,11 +1,12 @@
 //! What images cost: times in turns, and instructions.
 
 use std::error::Error;
-use std::process::Command;
 use std::time::Instant;
 
 use trigon_camera::Camera;
 use trigon_scene::{Effect, Frame, RenderSettings, Renderer, Scene};
+
+use crate::callgrind::switch_counting;
 
 /// How often each image is timed.
 const ROUNDS: usize = 15;
@@ -77,24 +78,4 @@ impl Shots {
 pub(crate) fn quarters(mut values: Vec<f64>) -> [f64; 3] {
     values.sort_by(f64::total_cmp);
     [1, 2, 3].map(|quarter| values[(values.len() - 1) * quarter / 4])
-}
-
-/// The instructions of one warm frame of a shot, counted by callgrind, which knows no AVX-512, so that the level is AVX2.
-pub(crate) fn instructions(subject: &str, number: usize) -> Result<f64, Box<dyn Error>> {
-    let mut valgrind = Command::new("valgrind");
-    // Making the subject takes far longer than drawing it, and is not counted.
-    valgrind.args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--instr-atstart=no"]);
-    valgrind.arg(std::env::current_exe()?).args(["count", subject, &number.to_string()]);
-    let output = valgrind.output()?;
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    let counted = text.lines().find_map(|line| line.split_once("Collected : "));
-    Ok(counted.ok_or_else(|| text.clone())?.1.trim().parse()?)
-}
-
-/// Tells callgrind, within which this process runs, to count or not.
-fn switch_counting(to: &str) -> Result<(), Box<dyn Error>> {
-    let process = std::process::id().to_string();
-    let output = Command::new("callgrind_control").args(["--instr", to, &process]).output()?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    if output.status.success() && text.contains("OK") { Ok(()) } else { Err(text.into_owned().into()) }
 }

@@ -5,6 +5,7 @@ mod cases;
 mod certified;
 mod scenes;
 
+use std::num::NonZeroUsize;
 use std::time::Duration;
 
 use crate::truth::Truth;
@@ -110,6 +111,13 @@ impl Repeated {
     #[must_use]
     pub fn at_level(mut self, level: SimdLevel) -> Self {
         self.renderer.settings_mut().simd = Some(level);
+        self
+    }
+
+    /// On so many threads.
+    #[must_use]
+    pub fn on_threads(mut self, threads: NonZeroUsize) -> Self {
+        self.renderer.settings_mut().threads = Some(threads);
         self
     }
 
