@@ -113,7 +113,7 @@ test('the package packs and draws pictures where it is installed', () => {
   }
 });
 
-test('pictures are the bytes of the viewer', { skip: !process.env.TRIGON_VIEWER && 'TRIGON_VIEWER is not set' }, () => {
+test('pictures are the bytes of the viewer', () => {
   const folder = mkdtempSync(join(tmpdir(), 'trigon-web-'));
   try {
     for (const path of ['crates/study/models/mug.obj', 'crates/study/models/chair.obj', 'tests/corpus/ok/cube_textured.glb']) {

@@ -12,7 +12,7 @@ const READY: &str = "ms to make ready";
 const CASE: &str = "a ball above a floor";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
-    let side = effort.pick(256, 512);
+    let side = effort.pick(128, 512);
     let rounds = effort.rounds();
     let right = exact(side);
     let ready = nanoseconds(rounds.div_ceil(3), &Shadow::ALL, |shadow| -> Box<dyn FnMut()> {

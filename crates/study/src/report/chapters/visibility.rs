@@ -16,7 +16,7 @@ const PARALLEL: &str = "16 parallel sheets";
 const CROSSING: &str = "16 sheets that cross";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
-    let side = effort.pick(128, 256);
+    let side = effort.pick(96, 256);
     let mut rows = Vec::new();
     for case in VisibilityCase::ALL {
         rows.extend(of_scene(case.name(), &case.scene(side), effort));

@@ -24,7 +24,8 @@ pub(super) fn page(recorded: &Recorded<'_>) -> String {
     let mut text = format!(
         "# What a millisecond buys\n\n{}\n\nErrors are root mean squares of the difference from the right image, in linear light, where 1 is the \
          display's white. The right image comes from rays in `f64` that share no code with the renderer; how exact it is stands \
-         [below](#how-right-is-the-truth). Times are medians of whole frames on all threads. Methods, algorithms and all other tables are in the \
+         [below](#how-right-is-the-truth). Times are medians of whole frames on all threads; [instructions](accuracy-instructions.md), which no \
+         load changes, are counted apart. Methods, algorithms and all other tables are in the \
          [appendix]({APPENDIX}), all rows in `accuracy.csv`; a test writes this page again from those rows.\n\nA setting a×a×c has a×a shaded samples for each \
          pixel, and c samples of coverage in each of them. Up to 2×2 it has shadow maps of 2048 texels, above it shadow rays, unless it says otherwise. \
          `draft`, `standard`, `high` and `reference` are presets.\n\n",

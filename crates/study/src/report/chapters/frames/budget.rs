@@ -37,7 +37,7 @@ pub(super) fn rows(size: [u32; 2], effort: Effort) -> Vec<Row> {
 
 /// The budget on a case's flight.
 fn flight(case: FrameCase, size: [u32; 2], effort: Effort) -> Row {
-    let (start, frames) = (Instant::now(), effort.pick(8, 30));
+    let (start, frames) = (Instant::now(), effort.pick(5, 30));
     let limit = Duration::from_millis(16);
     let steps = fly(case, size, limit, frames, &mut || start.elapsed()).expect("the size is in range");
     let summary = FlightSummary::of(&steps);
@@ -56,7 +56,7 @@ fn flight(case: FrameCase, size: [u32; 2], effort: Effort) -> Row {
 
 /// The budget at the start of a case's flight: a row for each quality that it chose.
 fn rest(case: FrameCase, size: [u32; 2], limit: u64, effort: Effort) -> Vec<Row> {
-    let (start, frames) = (Instant::now(), effort.pick(6, 16));
+    let (start, frames) = (Instant::now(), effort.pick(4, 16));
     let milliseconds = Duration::from_millis(limit);
     let steps =
         stay(case, size, milliseconds, frames, &mut || start.elapsed()).expect("the size is in range");
