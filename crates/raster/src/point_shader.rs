@@ -3,7 +3,7 @@
 
 use crate::draw::{BlendMode, Culling};
 use crate::draw_view::DrawView;
-use crate::fragments::{DrawVaryings, PointScratch, ShadeContext, SurfacePoint};
+use crate::fragments::{DrawVaryings, PointScratch, ShadeContext, ShadeOutput, SurfacePoint};
 use crate::geometry::Shape;
 use crate::pass::{Pass, RecordedDraw};
 use crate::pool::Workers;
@@ -81,7 +81,7 @@ impl<'p> PointShader<'p> {
         let tasks = self.tasks(&mut varyings);
         workers.share(tasks.into_iter(), |VertexTask { draw, slots, varyings }| {
             let mut vertices = vec![ScreenVertex::default(); slots.len()];
-            let out = VertexDestination { vertices: &mut vertices, varyings };
+            let out = VertexDestination { vertices: &mut vertices, varyings, position: None };
             let viewport = Viewport { width: 1, height: 1 };
             let used = self.used[draw].vertices.slots(&self.listed);
             self.pass[draw].pipeline.run_vertices(self.token, used, slots, viewport, out);
@@ -127,7 +127,9 @@ impl<'p> PointShader<'p> {
         colors: &mut [[f32; 4]],
     ) {
         if let Some(context) = self.context(draw, points) {
-            self.pass[draw].pipeline.shade_points(self.token, &context, scratch, points, colors);
+            let (task, columns) = scratch.list(&context, points);
+            let mut output = ShadeOutput::colors(colors);
+            self.pass[draw].pipeline.shade(self.token, &context, &task, columns, &mut output);
         } else {
             colors.fill([0.0; 4]);
         }
@@ -142,7 +144,12 @@ impl<'p> PointShader<'p> {
         passed: &mut [bool],
     ) {
         if let Some(context) = self.context(draw, points) {
-            self.pass[draw].pipeline.mask_points(self.token, &context, scratch, points, passed);
+            let (task, columns) = scratch.list(&context, points);
+            let mut bytes = vec![0; points.len()];
+            self.pass[draw].pipeline.mask(self.token, &context, &task, columns, &mut bytes);
+            for (passed, byte) in passed.iter_mut().zip(bytes) {
+                *passed = byte != 0;
+            }
         } else {
             passed.fill(false);
         }

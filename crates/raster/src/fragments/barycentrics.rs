@@ -102,10 +102,19 @@ impl<S: Simd> TriangleLanes<'_, S> {
 impl<S: Simd> Barycentrics<S> {
     /// Known weights and slopes of points that have no place on the screen, and so neither depth nor distances to edges.
     #[inline(always)]
-    pub(crate) fn of_weights(simd: S, weights: [F32<S>; 3], slopes: [[F32<S>; 2]; 2]) -> Self {
+    pub(crate) fn of_weights(simd: S, placed: &WeightedPoints, slopes: &[[Row; 2]; 2]) -> Self {
         let [zero, one, far] = [0.0, 1.0, f32::INFINITY].each(
             #[inline(always)]
             |value| F32::splat(simd, value),
+        );
+        let value = inlined(
+            #[inline(always)]
+            |row: &Row| I32::simd_from(simd, *row).bitcast::<F32<S>>(),
+        );
+        let weights = placed.weights.each_ref().each(value);
+        let slopes = slopes.each_ref().each(
+            #[inline(always)]
+            |rows| rows.each_ref().each(value),
         );
         Self { weights, slopes, edges: [zero; 3], area: one, total: one, distances: [far; 3] }
     }

@@ -8,9 +8,10 @@ use super::context::ShadeContext;
 use super::layout::{CutColumns, RecordShape, cold, hot, lined, outlined};
 use super::perspective::WeightedPoints;
 use super::records::Records;
+use super::surface_point::SurfacePoint;
 use super::task::FragmentBatch;
 use crate::MAX_VARYINGS;
-use crate::simd::{I32, InlineMap, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
+use crate::simd::{I32, InlineMap, LANES, Mask, Row, Simd, U32, inlined, lanes_of, prelude::*, transpose};
 
 /// The records of the triangles of eight pixels, and the lanes of all but the first.
 enum TrianglesOfLanes<S: Simd> {
@@ -76,7 +77,7 @@ struct AlignedRows([Row; ROWS]);
 /// pixels side by side.
 pub(crate) struct Columns {
     rows: Box<AlignedRows>,
-    /// Whether a triangle is wide or cut.
+    /// Whether a triangle is wide or cut, or weights were given.
     is_special: bool,
     /// Filled only then.
     special: SpecialColumns,
@@ -86,7 +87,7 @@ pub(crate) struct Columns {
     pub(crate) placed: WeightedPoints,
 }
 
-/// What only vectors with a wide or cut triangle need.
+/// What only vectors with a wide or cut triangle need, or with given weights.
 pub(crate) struct SpecialColumns {
     pub(crate) cold: [Row; cold::COUNT],
     /// Twice the areas.
@@ -94,6 +95,8 @@ pub(crate) struct SpecialColumns {
     cut: CutColumns,
     /// Whether one of them is cut.
     is_cut: bool,
+    /// The derivatives of the given weights of corners 1 and 2, to the right and downwards, as bits of f32.
+    slopes: Option<[[Row; 2]; 2]>,
 }
 
 impl SpecialColumns {
@@ -101,6 +104,12 @@ impl SpecialColumns {
     #[inline(always)]
     pub(crate) fn cut(&self) -> Option<&CutColumns> {
         self.is_cut.then_some(&self.cut)
+    }
+
+    /// The derivatives of weights that were given.
+    #[inline(always)]
+    pub(crate) fn slopes(&self) -> Option<&[[Row; 2]; 2]> {
+        self.slopes.as_ref()
     }
 }
 
@@ -110,7 +119,7 @@ impl Columns {
         Self {
             rows: Box::new(AlignedRows([[0; LANES]; ROWS])),
             is_special: false,
-            special: SpecialColumns { cold, areas: [0.0; LANES], cut, is_cut: false },
+            special: SpecialColumns { cold, areas: [0.0; LANES], cut, is_cut: false, slopes: None },
             uniform: None,
             placed: WeightedPoints::default(),
         }
@@ -153,7 +162,7 @@ impl Columns {
         self.rows.0[shape.outlined?..].first_chunk()
     }
 
-    /// What is special, if a triangle is wide or cut.
+    /// What is special, if a triangle is wide or cut, or weights were given.
     #[inline(always)]
     pub(crate) fn special(&self) -> Option<&SpecialColumns> {
         self.is_special.then_some(&self.special)
@@ -191,6 +200,32 @@ impl Columns {
             self.special.cold = records.cold(simd, context, vector.slots());
             self.special.load(context);
         }
+    }
+
+    /// Loads the first eight points; lanes to spare repeat the first.
+    #[cold]
+    pub(crate) fn load_points(&mut self, context: &ShadeContext<'_>, points: &[SurfacePoint]) {
+        let points = lanes_of(|lane| *points.get(lane).unwrap_or(&points[0]));
+        let count = context.varying_count;
+        for (lane, point) in points.iter().enumerate() {
+            let columns = self.rows.0[hot::COUNT..].chunks_exact_mut(count.max(1));
+            for (columns, corner) in columns.zip(context.geometry().corners(point.triangle)) {
+                for (column, value) in columns.iter_mut().zip(context.varyings.of(corner)) {
+                    column[lane] = value.to_bits().cast_signed();
+                }
+            }
+        }
+        let row = |of: &dyn Fn(&SurfacePoint) -> f32| {
+            points.each_ref().map(|point| of(point).to_bits().cast_signed())
+        };
+        self.placed = WeightedPoints {
+            point: [0, 1].map(|axis| points.each_ref().map(|point| point.sample[axis] as i32 * 256 + 128)),
+            weights: [0, 1, 2].map(|corner| row(&|point| point.weights[corner])),
+            ..WeightedPoints::default()
+        };
+        let slopes = [0, 1].map(|corner| [0, 1].map(|axis| row(&|point| point.slopes[axis][corner])));
+        self.special.slopes = Some(slopes);
+        self.is_special = true;
     }
 
     /// Whether a triangle is wide or cut: no other has steps of 0.

@@ -11,7 +11,7 @@
 //! | `columns` | the records of eight pixels, transposed: one pixel in each lane |
 //! | `triangle_lanes`, `barycentrics` | edge functions and **perspective-correct weights** at the pixels |
 //! | `fragment_lanes` | the input of a pipeline's shading function: **interpolated varyings** and their gradients |
-//! | `surface_points` | the same input for points that were found otherwise, such as by rays |
+//! | `surface_point`, `surface_points` | the same input for points that were found otherwise, such as by rays |
 //! | `lines_over` | blends edges and marks of faces over the colours |
 //! | `output` | where colours go; linear light to sRGB bytes |
 
@@ -26,17 +26,20 @@ mod output;
 mod perspective;
 mod records;
 mod sorted;
+mod surface_point;
 mod surface_points;
 mod task;
 mod triangle_lanes;
 
-pub(crate) use columns::Columns;
+pub(crate) use barycentrics::Barycentrics;
+pub(crate) use columns::{Columns, SpecialColumns};
 pub(crate) use context::{DrawVaryings, Job, ShadeContext, ShadePoint, Spots};
 pub use fragment_lanes::FragmentLanes;
 pub(crate) use fragment_lanes::RawFragment;
 pub(crate) use layout::RecordShape;
 pub(crate) use output::{Codes, Encoding, ShadeOutput, finite};
 pub(crate) use records::Records;
-pub use surface_points::{PointScratch, SurfacePoint};
+pub use surface_point::SurfacePoint;
+pub use surface_points::PointScratch;
 pub(crate) use task::{FragmentBatch, FragmentList, FragmentSlice, Group, Task, VisibleTriangles};
 pub(crate) use triangle_lanes::TriangleLanes;

@@ -88,10 +88,10 @@ impl Records {
         shape
     }
 
-    /// Eight records of nothing but tags.
-    pub(crate) fn set_tags(&mut self, tags: [Tag; LANES]) {
+    /// Records of nothing but tags, of a draw with this many varyings.
+    pub(crate) fn set_tags(&mut self, varyings: usize, tags: impl Iterator<Item = Tag>) {
         self.clear();
-        self.shape = RecordShape::default();
+        self.shape = RecordShape { varyings, ..RecordShape::default() };
         self.tags.clear();
         self.tags.extend(tags);
     }

@@ -5,6 +5,7 @@
 
 use super::context::ShadePoint;
 use super::records::Records;
+use super::surface_point::SurfacePoint;
 use crate::simd::{InlineMap, LANES, Mask, Simd, U32, append, lane_numbers, lanes_of, prelude::*};
 use std::ops::Range;
 
@@ -39,6 +40,8 @@ pub(crate) struct Task<'t> {
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
     pub(crate) fragments: FragmentSlice<'t>,
+    /// The points of the fragments, if something other than the rasterizer found them.
+    pub(crate) points: Option<&'t [SurfacePoint]>,
 }
 
 /// Where the colours of a vector go.
@@ -74,19 +77,6 @@ enum RecordNames<'t> {
 }
 
 impl<'t, S: Simd> FragmentBatch<'t, S> {
-    /// The first `count` of eight records, whose results the caller takes itself.
-    #[inline(always)]
-    pub(crate) fn of_first(simd: S, count: usize) -> Self {
-        let numbers = lane_numbers(simd).bitcast();
-        Self {
-            names: numbers,
-            named: RecordNames::Slots,
-            spots: numbers,
-            active: (1 << count) - 1,
-            destination: Destination::Listed(&[]),
-        }
-    }
-
     /// The number of the record that a name refers to.
     #[inline(always)]
     pub(crate) fn slot(&self, name: u32) -> u32 {
@@ -118,7 +108,8 @@ impl<'t, S: Simd> FragmentBatch<'t, S> {
 impl<'t> Task<'t> {
     /// A list of fragments.
     pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: FragmentSlice<'t>) -> Self {
-        Self { records, base, groups: &[], visible: VisibleTriangles::default(), slots: &[], fragments }
+        let visible = VisibleTriangles::default();
+        Self { records, base, groups: &[], visible, slots: &[], fragments, points: None }
     }
 
     /// How many vectors there are.

@@ -177,7 +177,7 @@ impl RunTask<'_> {
                     self.used,
                     slots,
                     viewport,
-                    VertexDestination { vertices, varyings },
+                    VertexDestination { vertices, varyings, position: None },
                 );
                 for ((bit, after), before) in (first % 64..).zip(&*vertices).zip(&before) {
                     // The position of a vertex without a snapped one is computed by the pipeline once more.

@@ -220,7 +220,7 @@ fn run_vertices(
                 plan.slots(draw),
                 slots,
                 viewport,
-                VertexDestination { vertices: screen_vertices, varyings },
+                VertexDestination { vertices: screen_vertices, varyings, position: None },
             );
         }
     });

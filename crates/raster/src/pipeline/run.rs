@@ -10,10 +10,10 @@
 use super::traits::ScalarPipeline;
 use crate::LanePipeline;
 use crate::fragments::{
-    Columns, FragmentBatch, FragmentLanes, PointScratch, Records, ShadeContext, ShadeOutput, ShadePoint,
-    Spots, SurfacePoint, Task, TriangleLanes, finite,
+    Barycentrics, Columns, FragmentBatch, FragmentLanes, Records, ShadeContext, ShadeOutput, ShadePoint,
+    SpecialColumns, Spots, Task, TriangleLanes, finite,
 };
-use crate::simd::{F32, I32, InlineMap, LANES, Simd, Token, U32, at_level, colors_of, prelude::*};
+use crate::simd::{F32, I32, InlineMap, LANES, Simd, Token, U32, at_level, prelude::*};
 use crate::vertex::VertexProgram;
 
 /// Writes the colours of all pixels.
@@ -99,6 +99,9 @@ fn prepare<S: Simd>(
     columns: &mut Columns,
     number: usize,
 ) {
+    if let Some(points) = task.points {
+        return columns.load_points(context, &points[number * LANES..]);
+    }
     let vector = task.vector(simd, number);
     columns.load(simd, context, task.records, &vector);
     let point = points(simd, context, columns, vector.spots);
@@ -114,11 +117,15 @@ fn fragments<'v, S: Simd>(
     columns: &'v Columns,
     vector: &'v FragmentBatch<'_, S>,
 ) -> FragmentLanes<'v, S> {
+    let barycentrics = match columns.special().and_then(SpecialColumns::slopes) {
+        None => TriangleLanes::load(simd, columns).at(simd, &columns.placed),
+        Some(slopes) => Barycentrics::of_weights(simd, &columns.placed, slopes),
+    };
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
         columns,
-        barycentrics: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
+        barycentrics,
         point: columns.placed.point(simd),
         vector,
         records,
@@ -242,22 +249,6 @@ pub(super) fn mask_scalar(
     }));
 }
 
-/// Calls `visit` with eight points at a time, and the number of the first.
-#[inline(always)]
-fn for_each_eight<S: Simd>(
-    simd: S,
-    context: &ShadeContext<'_>,
-    scratch: &mut PointScratch,
-    points: &[SurfacePoint],
-    mut visit: impl FnMut(&FragmentLanes<'_, S>, usize),
-) {
-    for (number, eight) in points.chunks(LANES).enumerate() {
-        scratch.load(context, eight);
-        let batch = FragmentBatch::of_first(simd, eight.len());
-        visit(&scratch.lanes(simd, context, &batch), number * LANES);
-    }
-}
-
 /// A pipeline without its type.
 pub(crate) trait AnyPipeline: VertexProgram {
     /// Whether it reads the whole fragment, depth and 1/w included.
@@ -284,26 +275,6 @@ pub(crate) trait AnyPipeline: VertexProgram {
         task: &Task<'_>,
         columns: &mut [Columns; 2],
         passed: &mut [u8],
-    );
-
-    /// The colours of points of surfaces, in linear light. Only for pipelines that do not read the whole fragment.
-    fn shade_points(
-        &self,
-        token: Token,
-        context: &ShadeContext<'_>,
-        scratch: &mut PointScratch,
-        points: &[SurfacePoint],
-        colors: &mut [[f32; 4]],
-    );
-
-    /// Whether points of surfaces exist; likewise.
-    fn mask_points(
-        &self,
-        token: Token,
-        context: &ShadeContext<'_>,
-        scratch: &mut PointScratch,
-        points: &[SurfacePoint],
-        passed: &mut [bool],
     );
 }
 
@@ -348,42 +319,5 @@ impl<P: LanePipeline> AnyPipeline for P {
         } else {
             passed.fill(1);
         }
-    }
-
-    fn shade_points(
-        &self,
-        token: Token,
-        context: &ShadeContext<'_>,
-        scratch: &mut PointScratch,
-        points: &[SurfacePoint],
-        colors: &mut [[f32; 4]],
-    ) {
-        if !P::SCALAR {
-            at_level!(token, simd => for_each_eight(simd, context, scratch, points, #[inline(always)] |lanes, first| {
-                let rows = colors_of(simd, finite(simd, self.fragments(simd, lanes)));
-                for (color, row) in colors[first..].iter_mut().zip(rows) {
-                    *color = row;
-                }
-            }));
-        }
-    }
-
-    fn mask_points(
-        &self,
-        token: Token,
-        context: &ShadeContext<'_>,
-        scratch: &mut PointScratch,
-        points: &[SurfacePoint],
-        passed: &mut [bool],
-    ) {
-        if P::SCALAR || !P::MASKED {
-            return passed.fill(true);
-        }
-        at_level!(token, simd => for_each_eight(simd, context, scratch, points, #[inline(always)] |lanes, first| {
-            let mask = self.masks(simd, lanes).to_bitmask();
-            for (lane, passed) in passed[first..].iter_mut().enumerate().take(LANES) {
-                *passed = mask >> lane & 1 != 0;
-            }
-        }));
     }
 }

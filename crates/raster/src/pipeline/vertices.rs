@@ -4,7 +4,7 @@
 use super::traits::{LanePipeline, ScalarPipeline};
 use crate::MAX_VARYINGS;
 use crate::simd::{F32, InlineMap, LANES, Simd, Token, at_level, prelude::*};
-use crate::vertex::{Slots, VertexDestination, VertexLanes, VertexProgram, to_screen};
+use crate::vertex::{ScreenVertex, Slots, VertexDestination, VertexLanes, VertexProgram, to_screen};
 use crate::viewport::Viewport;
 use std::ops::Range;
 use trigon_math::Vec4;
@@ -47,14 +47,18 @@ impl<P: LanePipeline> VertexProgram for P {
         }
     }
 
-    fn position(&self, token: Token, vertex: usize) -> Vec4 {
+    fn position(&self, token: Token, vertex: u32) -> Vec4 {
         let mut varyings = [0.0; MAX_VARYINGS];
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            Vec4::from_array(pipeline.run_vertex(vertex, &mut varyings))
-        } else {
-            at_level!(token, simd => position(simd, self, vertex, &mut varyings[..P::varyings(self)]))
+            return Vec4::from_array(pipeline.run_vertex(vertex as usize, &mut varyings));
         }
+        // By the code of the vertex stage, so that it is compiled once.
+        let (mut position, mut snapped) = (Vec4::ZERO, [ScreenVertex::default()]);
+        let varyings = &mut varyings[..self.stride()];
+        let out = VertexDestination { vertices: &mut snapped, varyings, position: Some(&mut position) };
+        self.run_vertices(token, Slots::of_vertex(vertex), 0..1, Viewport { width: 1, height: 1 }, out);
+        position
     }
 }
 
@@ -69,7 +73,8 @@ struct VertexRun<'r> {
 /// Computes screen vertices and varyings.
 #[inline(always)]
 fn run_lanes<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, run: VertexRun<'_>) {
-    let VertexRun { used, slots, viewport, out: VertexDestination { vertices, mut varyings } } = run;
+    let VertexRun { used, slots, viewport, out } = run;
+    let VertexDestination { vertices, mut varyings, mut position } = out;
     let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
     // Listed vertices do not lie side by side.
     let together = if used.are_consecutive() { LANES } else { 1 };
@@ -78,14 +83,19 @@ fn run_lanes<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, run: VertexRun<'_>
         let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(vertices.len() * stride);
         varyings = rest;
         let mut lanes = VertexLanes::new(first, vertices.len(), rows, stride);
-        let position = pipeline.vertices(simd, &mut lanes);
-        to_screen(simd, position, viewport, guard, vertices);
+        let clip = pipeline.vertices(simd, &mut lanes);
+        if let Some(position) = position.take() {
+            let [x, y, z, w] = clip;
+            *position = Vec4::new(x[0], y[0], z[0], w[0]);
+        }
+        to_screen(simd, clip, viewport, guard, vertices);
     }
 }
 
 /// As [`run_lanes`], one vertex after the other; compiled once for all pipelines.
 fn run_scalar(token: Token, pipeline: &dyn ScalarPipeline, stride: usize, run: VertexRun<'_>) {
-    let VertexRun { used, slots, viewport, out: VertexDestination { vertices, mut varyings } } = run;
+    let VertexRun { used, slots, viewport, out } = run;
+    let VertexDestination { vertices, mut varyings, .. } = out;
     let guard = viewport.guard();
     for (group, vertices) in vertices.chunks_mut(LANES).enumerate() {
         let mut columns = [[0.0; LANES]; 4];
@@ -101,12 +111,4 @@ fn run_scalar(token: Token, pipeline: &dyn ScalarPipeline, stride: usize, run: V
             to_screen(simd, columns.each(#[inline(always)] |column| F32::simd_from(simd, column)), viewport, guard, vertices);
         });
     }
-}
-
-/// The clip-space position of one vertex.
-#[inline(always)]
-fn position<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, vertex: usize, varyings: &mut [f32]) -> Vec4 {
-    let mut lanes = VertexLanes::new(vertex, 1, varyings, pipeline.varyings());
-    let [x, y, z, w] = pipeline.vertices(simd, &mut lanes);
-    Vec4::new(x[0], y[0], z[0], w[0])
 }

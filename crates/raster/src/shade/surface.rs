@@ -138,6 +138,7 @@ fn shade_run(
         visible,
         slots,
         fragments: fragments.part(run.fragments.clone()),
+        points: None,
     };
     let output = match encoding {
         Some(encoding) => ShadeOutput::Codes(Codes { codes, encoding, colors }),

@@ -12,6 +12,8 @@ use trigon_math::Vec4;
 pub(crate) struct VertexDestination<'o> {
     pub(crate) vertices: &'o mut [ScreenVertex],
     pub(crate) varyings: &'o mut [f32],
+    /// Where the position of the first vertex in clip space goes, if it is needed.
+    pub(crate) position: Option<&'o mut Vec4>,
 }
 
 /// What the stages before shading need of a pipeline. The type is erased once per draw.
@@ -36,7 +38,7 @@ pub(crate) trait VertexProgram: Sync {
     );
 
     /// The clip-space position of a vertex.
-    fn position(&self, token: Token, vertex: usize) -> Vec4;
+    fn position(&self, token: Token, vertex: u32) -> Vec4;
 }
 
 /// Up to eight consecutive vertices: which they are, and where their varyings
@@ -184,6 +186,11 @@ pub(crate) struct Slots<'a> {
 }
 
 impl Slots<'_> {
+    /// One vertex.
+    pub(crate) fn of_vertex(vertex: u32) -> Self {
+        Self { start: vertex, listed: None }
+    }
+
     /// The slot of a vertex; beyond the last slot if the draw has no such vertex.
     #[inline(always)]
     pub(crate) fn of(self, index: u32) -> usize {
@@ -239,7 +246,7 @@ impl<'a> DrawVertices<'a> {
     /// pipeline computes it again. Pipelines must then return the same bits as in the vertex stage, or
     /// cracks would open to neighbours that are not cut.
     pub(crate) fn position(&self, index: u32) -> Vec4 {
-        self.pipeline.position(self.token, index as usize)
+        self.pipeline.position(self.token, index)
     }
 }
 
