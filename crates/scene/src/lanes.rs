@@ -208,7 +208,7 @@ mod tests {
     use trigon_math::elementary;
 
     fn powers(base: [f32; 8], exponent: f32) -> [f32; 8] {
-        let simd = fearless_simd::Fallback::new();
+        let simd = crate::baseline::baseline();
         pow(F32::simd_from(simd, base), F32::splat(simd, exponent)).into()
     }
 

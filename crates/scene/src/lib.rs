@@ -30,6 +30,8 @@
 
 mod animation;
 mod arena;
+#[cfg(test)]
+mod baseline;
 mod check;
 mod coarse;
 mod display;

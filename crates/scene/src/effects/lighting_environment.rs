@@ -272,12 +272,12 @@ fn down_on_plane(rows: &[Vec4; 2], to_camera: &Affine3, origin: Vec3, direction:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::Fallback;
+    use crate::baseline::baseline;
     use trigon_math::elementary;
 
     #[test]
     fn a_surface_fades_exponentially_with_its_distance() {
-        let simd = Fallback::new();
+        let simd = baseline();
         let fog = Fog { color: Vec3::new(1.0, 0.5, 0.0), density: 0.3 };
         let model = FogModel::new(&fog).expect("there is some");
         for distance in [0.0_f32, 1.0, 5.0, 40.0] {

@@ -175,7 +175,7 @@ fn blurred(roughness: f32, height: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::Fallback;
+    use crate::baseline::baseline;
 
     use super::*;
     use crate::environment::Environment;
@@ -188,7 +188,7 @@ mod tests {
 
     /// The studio seen from a point whose normal and view are the same.
     fn head_on(studio: &MetalStudio, towards: Vec3, roughness: f32) -> [f32; 2] {
-        let simd = Fallback::new();
+        let simd = baseline();
         let towards = splat(simd, towards);
         let points = LitPoints::elsewhere(simd, towards, towards, towards);
         let StudioOnMetal { mirrored, around } = studio.light(simd, &points, F32::splat(simd, roughness));

@@ -253,11 +253,11 @@ impl<S: Simd> Reflected<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::Fallback;
+    use crate::baseline::{Baseline, baseline};
     use trigon_math::{Vec3, elementary};
 
-    fn surface(roughness: f32, f0: f32) -> Microfacets<Fallback> {
-        let simd = Fallback::new();
+    fn surface(roughness: f32, f0: f32) -> Microfacets<Baseline> {
+        let simd = baseline();
         let splat = |value| F32::splat(simd, value);
         Microfacets {
             f0: [splat(f0); 3],
@@ -270,7 +270,7 @@ mod tests {
     /// The integral over all microfacets of D · G₁ · max(v·h, 0) / n·v. It is 1 for any roughness: before
     /// shadowing, no light is lost or gained (Heitz 2014, equation 22, the "weak white furnace test").
     fn furnace(roughness: f32, n_dot_v: f64) -> f64 {
-        let simd = Fallback::new();
+        let simd = baseline();
         let (rings, sectors) = (600, 256);
         let view = [(1.0 - n_dot_v * n_dot_v).sqrt(), n_dot_v];
         let mut total = 0.0;
@@ -309,7 +309,7 @@ mod tests {
 
     /// The integral of the whole highlight over all directions of light.
     fn albedo(roughness: f32, n_dot_v: f32) -> f64 {
-        let simd = Fallback::new();
+        let simd = baseline();
         let view = Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), 0.0, n_dot_v);
         let (rings, sectors) = (400_u16, 256_u16);
         let mut total = 0.0;
@@ -344,8 +344,8 @@ mod tests {
     fn the_table_holds_the_integral_of_the_highlight() {
         for roughness in [0.3, 0.6, 0.9] {
             for n_dot_v in [0.3, 0.6, 0.9] {
-                let splat = |value| F32::splat(Fallback::new(), value);
-                let [scale, offset] = reflectance(Fallback::new(), splat(roughness), splat(n_dot_v));
+                let splat = |value| F32::splat(baseline(), value);
+                let [scale, offset] = reflectance(baseline(), splat(roughness), splat(n_dot_v));
                 let (found, exact) = (f64::from((scale + offset)[0]), albedo(roughness, n_dot_v));
                 assert!(
                     (found - exact).abs() < 0.015,
@@ -357,7 +357,7 @@ mod tests {
 
     #[test]
     fn white_surfaces_vanish_in_a_white_room() {
-        let simd = Fallback::new();
+        let simd = baseline();
         for (roughness, f0) in [(0.0, 1.0), (0.5, 1.0), (1.0, 1.0), (0.2, 0.04), (0.9, 0.04)] {
             for n_dot_v in [0.05, 0.5, 1.0] {
                 let answer = surface(roughness, f0).surrounded(F32::splat(simd, n_dot_v));

@@ -145,12 +145,12 @@ impl Lights {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::baseline::baseline;
     use crate::lighting::LampSource;
-    use fearless_simd::Fallback;
     use trigon_math::elementary;
 
     fn share(light: &Light, at: Vec3) -> f32 {
-        let simd = Fallback::new();
+        let simd = baseline();
         let lamp = Lamp::new(light, 0, &DAffine3::IDENTITY).expect("a lamp");
         lamp.arriving(simd, splat(simd, at)).share[0]
     }

@@ -126,10 +126,10 @@ impl Lights {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::baseline::{Baseline, baseline};
     use crate::effects::LightingEnvironment;
     use crate::lanes::{V3, splat};
     use crate::light::Light;
-    use fearless_simd::Fallback;
     use trigon_math::DVec3;
     use trigon_raster::simd::{F32, LANES, prelude::*};
 
@@ -140,8 +140,8 @@ mod tests {
 
     /// The same of surfaces at eight distances.
     fn shown_at(lights: &Lights, distances: [f32; LANES]) -> [Vec3; LANES] {
-        let simd = Fallback::new();
-        let normal: V3<Fallback> = splat(simd, Vec3::Z);
+        let simd = baseline();
+        let normal: V3<Baseline> = splat(simd, Vec3::Z);
         let mut position = splat(simd, Vec3::ZERO);
         position[2] = F32::simd_from(simd, distances.map(|distance| -distance));
         let points = LitPoints::elsewhere(simd, position, normal, normal);

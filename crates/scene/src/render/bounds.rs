@@ -62,9 +62,9 @@ fn clip_bounds(placement: &Placement, bounds: &Bounds3) -> Option<DrawBounds> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::baseline::baseline;
     use crate::placement::Eye;
     use crate::scene::NodePlacement;
-    use fearless_simd::Fallback;
     use proptest::prelude::*;
     use trigon_camera::{Camera, Projection};
     use trigon_math::glam::{DAffine3, DQuat};
@@ -132,7 +132,7 @@ mod tests {
                     at.clamp(least[axis], greatest[axis])
                 })
             };
-            let simd = Fallback::new();
+            let simd = baseline();
             let position = placement.clip(simd, [0, 1, 2].map(|axis| F32::simd_from(simd, at(axis))));
             let position: [[f32; LANES]; 4] = position.each(Into::into);
             for lane in 0..LANES {

@@ -375,7 +375,7 @@ fn eight<S: Simd>(simd: S, values: &[f32], first: usize) -> F32<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::Fallback;
+    use crate::baseline::baseline;
     use proptest::prelude::*;
 
     fn projection() -> impl Strategy<Value = Projection> {
@@ -394,7 +394,7 @@ mod tests {
         /// Rounded to f32, pixels of large images had the values of others.
         #[test]
         fn pixels_of_large_images_are_found(column in -1_i16..8192, row in -1_i16..8192, width in 8192_u16..9000) {
-            let pixel = [column, row].map(|number| F32::splat(Fallback::new(), f32::from(number)));
+            let pixel = [column, row].map(|number| F32::splat(baseline(), f32::from(number)));
             let [column, row] = [column, row].map(|number| (i32::from(number) + REACH as i32) as usize);
             let expected = row * usize::from(width) + column;
             prop_assert_eq!(indices(pixel, usize::from(width)), [expected; LANES]);
@@ -411,7 +411,7 @@ mod tests {
             let small = [view.width, view.height].map(f64::from);
             let pixel = [share[0] * small[0], share[1] * small[1]].map(f64::floor);
             let counted = pixel.map(|number| number as usize + REACH);
-            let point = view.positions(counted, F32::splat(Fallback::new(), distance)).map(|axis| axis[0]);
+            let point = view.positions(counted, F32::splat(baseline(), distance)).map(|axis| axis[0]);
             let clip = matrix.project_point3(Vec3::from_array(point).as_dvec3());
             let found = [(1.0 + clip.x) / 2.0 * small[0], (1.0 - clip.y) / 2.0 * small[1]];
             for axis in 0..2 {

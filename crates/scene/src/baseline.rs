@@ -1,0 +1,20 @@
+//! Vectors for tests of single functions: those that every processor of the architecture has. Without vectors the compiler would
+//! take minutes for what such functions call, and the engine has no such level anyway.
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) use fearless_simd::Fallback as Baseline;
+#[cfg(target_arch = "aarch64")]
+pub(crate) use fearless_simd::aarch64::Neon as Baseline;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use fearless_simd::x86::Sse2 as Baseline;
+
+/// The token of the level.
+pub(crate) fn baseline() -> Baseline {
+    #[cfg(target_arch = "x86_64")]
+    let token = fearless_simd::Level::new().as_sse2();
+    #[cfg(target_arch = "aarch64")]
+    let token = fearless_simd::Level::new().as_neon();
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    let token = Some(Baseline::new());
+    token.expect("it is part of the architecture")
+}
