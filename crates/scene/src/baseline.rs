@@ -1,5 +1,5 @@
-//! Vectors for tests of single functions: those that every processor of the architecture has. Without vectors the compiler would
-//! take minutes for what such functions call, and the engine has no such level anyway.
+//! Vectors for tests of single functions: those that every processor of the architecture has. For `Fallback`, which has none, the
+//! compiler would take minutes to build what such functions call, and images are drawn so only with the feature `scalar`.
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use fearless_simd::Fallback as Baseline;

@@ -4,6 +4,7 @@
 //!
 //! Without `--instructions`, which needs valgrind and takes many minutes, that column is left out.
 
+#[path = "../../../../crates/study/benches/instructions/callgrind.rs"]
 mod callgrind;
 mod measure;
 mod page;

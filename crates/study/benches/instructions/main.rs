@@ -3,7 +3,6 @@
 //!
 //! `cargo bench -p trigon-study --bench instructions -- docs`
 
-#[path = "../../../apps/viewer/examples/effects/callgrind.rs"]
 mod callgrind;
 
 use std::error::Error;

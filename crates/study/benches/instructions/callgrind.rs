@@ -1,5 +1,5 @@
 //! Instructions of a part of a program, counted by callgrind, which knows no AVX-512, so that the level is AVX2.
-//! The bench `instructions` of the study reads this file, too.
+//! The viewer's example `effects` compiles this file, too: benches and examples cannot depend on each other.
 
 use std::error::Error;
 use std::process::Command;
