@@ -195,13 +195,14 @@ impl Penumbra {
                     return one;
                 }
                 let (caster, is_found) = self.casters(simd, map, &disc, widest);
-                let is_found = is_found & is_shaded;
+                let is_found = (is_found | disc.is_past_lamp) & is_shaded;
                 if !is_found.any_true() {
                     return one;
                 }
                 let radius = is_found.select(caster - disc.depth, F32::splat(simd, 0.0));
-                let is_sharp =
+                let is_narrow =
                     (radius * self.cone[0]).simd_lt(SHARP) | (radius * self.cone[1]).simd_lt(SHARP);
+                let is_sharp = is_narrow | disc.is_past_lamp;
                 let lit = disc.lit(simd, map, radius);
                 let lit = match (is_sharp & is_found).any_true() {
                     true => is_sharp.select(map.compared(simd, at.texels, at.depth), lit),
@@ -219,6 +220,9 @@ struct Disc<S: Simd> {
     depth: F32<S>,
     /// What the surface's depth changes by from texel to texel.
     slopes: [F32<S>; 2],
+    /// Where points were moved so far off their surface that the lamp lies behind them: a plane there says nothing of texels
+    /// beside theirs.
+    is_past_lamp: Mask<S>,
     /// Seen beside the axis, discs are ellipses, which are longer in this direction by the last factor.
     aside: [F32<S>; 2],
     longer: F32<S>,
@@ -241,10 +245,12 @@ impl Penumbra {
             #[inline(always)]
             |values| F32::simd_from(simd, values),
         );
+        let (slopes, is_past_lamp) = self.slopes(points, at.position);
         Disc {
             texels: at.texels,
             depth: at.depth,
-            slopes: self.slopes(points.plane, at.position),
+            slopes,
+            is_past_lamp,
             aside,
             // √(1 + square) − 1, over the square.
             longer: one / ((square + 1.0).sqrt() + 1.0),
@@ -253,22 +259,28 @@ impl Penumbra {
         }
     }
 
-    /// What the depth of planes changes by per texel.
+    /// What the depth of the surfaces' planes through these positions changes by per texel, and where the lamp is not on the side
+    /// that they face.
     #[inline(always)]
-    fn slopes<S: Simd>(&self, normal: V3<S>, position: V3<S>) -> [F32<S>; 2] {
+    fn slopes<S: Simd>(&self, points: &LitPoints<S>, position: V3<S>) -> ([F32<S>; 2], Mask<S>) {
+        let normal = points.plane;
         let (zero, offset) = (F32::splat(position[0].token(), 0.0), -dot(normal, position));
         let [x, y, depth, _] = self.planes.transpose().to_cols_array_2d().each(
             #[inline(always)]
             |[a, b, c, d]| normal[0] * a + normal[1] * b + normal[2] * c + offset * d,
         );
-        [x, y].each(
+        let slopes = [x, y].each(
             #[inline(always)]
             |along| {
                 let slope = -along / depth;
                 // A plane that contains the lamp has none.
                 slope.abs().simd_lt(f32::MAX).select(slope, zero)
             },
-        )
+        );
+        // In the map a lamp lies at the origin with a positive depth and w = 0, as does the direction of parallel light: there a
+        // plane's value has the sign of this coefficient. The normal may point to either side.
+        let above = dot(normal, points.facing).simd_lt(0.0).select(-depth, depth);
+        (slopes, !above.simd_gt(0.0))
     }
 
     /// How much nearer to the lamp than the points casters in their cones may lie; 0 where none do.

@@ -105,23 +105,42 @@ fn lamp() -> impl Strategy<Value = Node> {
     )
 }
 
+/// How many pixels of a plane that is turned like this a lamp's map takes for shadowed.
+fn pixels_in_own_shadow(lamp: Node, turn: DQuat, resolution: u32) -> usize {
+    let mut scene = Scene::new();
+    let plane = scene.add_object(
+        "plane",
+        primitives::plane(3.0, 3.0),
+        Material { double_sided: true, ..matt(Vec3::ONE) },
+    );
+    scene.node_mut(plane).expect("just added").transform =
+        Transform::from_scale_rotation_translation(DVec3::ONE, turn, DVec3::ZERO);
+    scene.add(lamp);
+    let [off, mapped] = [Shadows::Off, Shadows::Maps { resolution }].map(|shadows| {
+        render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() }))
+            .expect("drawn")
+    });
+    off.color.chunks_exact(4).zip(mapped.color.chunks_exact(4)).filter(|(off, mapped)| off != mapped).count()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 4, ..ProptestConfig::default() })]
 
     /// "Acne" along no direction, on no slope, under no lamp and in no map: a plane hides nothing of itself.
     #[test]
     fn a_plane_casts_no_shadow_on_itself(lamp in lamp(), turn in rotation(), resolution in 8_u32..600) {
-        let mut scene = Scene::new();
-        let plane = scene.add_object("plane", primitives::plane(3.0, 3.0), Material { double_sided: true, ..matt(Vec3::ONE) });
-        scene.node_mut(plane).expect("just added").transform =
-            Transform::from_scale_rotation_translation(DVec3::ONE, turn, DVec3::ZERO);
-        scene.add(lamp);
-        let [off, mapped] = [Shadows::Off, Shadows::Maps { resolution }].map(|shadows| {
-            render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() })).expect("drawn")
-        });
-        let pixels = || off.color.chunks_exact(4).zip(mapped.color.chunks_exact(4));
-        let wrong = pixels().filter(|(off, mapped)| off != mapped).count();
-        prop_assert_eq!(wrong, 0, "of {} pixels", pixels().count());
+        prop_assert_eq!(pixels_in_own_shadow(lamp, turn, resolution), 0);
+    }
+}
+
+/// Points next to a lamp are moved off the plane by more than the lamp's height above it. The plane through a moved point then
+/// lay on the lamp's other side, and all of the true plane before it.
+#[test]
+fn points_that_are_moved_past_a_wide_lamp_are_not_shadowed_by_their_plane() {
+    for height in [0.01, 0.05, 0.2] {
+        let lamp = Light { intensity: 0.25, radius: 0.3, ..Light::point(1.0) };
+        let lamp = shining(lamp, DVec3::new(0.4, height, 0.1), DVec3::NEG_Y);
+        assert_eq!(pixels_in_own_shadow(lamp, DQuat::IDENTITY, 8), 0, "{height} m above the plane");
     }
 }
 
