@@ -3,8 +3,8 @@
 //!
 //! - While something moves: drafts, at most 60 a second, as small as the frame budget requires.
 //! - At rest: a full image, then the further steps of refinement, each better than the one before, and then
-//!   nothing. If the full image is expected to take long, a draft is drawn first. If it takes long
-//!   unexpectedly, it is abandoned, and a draft is drawn.
+//!   nothing. If the full image is expected to take long, a draft is drawn first, and then a preview if rays are what
+//!   takes long. If it takes long unexpectedly, it is abandoned, and a draft is drawn.
 //! - Images are drawn on a worker thread, one at a time. A draft is always finished, so that a
 //!   movement shows; any other image that nobody will see is cancelled.
 //! - The interface drawn over the image never waits for an image. Only movements of the pointer that a tool follows
@@ -46,6 +46,8 @@ pub(crate) enum Change {
 pub(crate) enum Quality {
     /// One sample per pixel, and reduced by this factor in each direction, at least 1.
     Draft { shrink: f64 },
+    /// As the settings define, but with rays that pixels share.
+    Preview,
     /// In full: step 0 as the settings define, later ones better.
     Full(usize),
 }
@@ -77,6 +79,8 @@ enum ScreenImage {
     Full(usize),
     /// A draft of the current image.
     Draft,
+    /// A preview of the current image.
+    Preview,
     /// Outdated, or no image.
     Old,
 }
@@ -87,6 +91,12 @@ struct ImageInProgress {
     quality: Quality,
     /// Whether something has changed since it was begun.
     outdated: bool,
+}
+
+impl ImageInProgress {
+    fn is_draft(&self) -> bool {
+        matches!(self.quality, Quality::Draft { .. })
+    }
 }
 
 /// Decides when to draw. All times are measured from the same moment.
@@ -171,8 +181,8 @@ impl Pacing {
 
     /// When the drawing at rest began. An outdated image does not count.
     fn work_begun(&self) -> Option<Duration> {
-        let is_full = |image: &ImageInProgress| matches!(image.quality, Quality::Full(_)) && !image.outdated;
-        self.occupied.or_else(|| self.under_way.as_ref().filter(|image| is_full(image)).and(self.begun))
+        let is_at_rest = |image: &ImageInProgress| !image.is_draft() && !image.outdated;
+        self.occupied.or_else(|| self.under_way.as_ref().filter(|image| is_at_rest(image)).and(self.begun))
     }
 
     /// When another whole second of drawing has passed since the last frame: then the badge changes.
@@ -235,19 +245,20 @@ impl Pacing {
     pub(crate) fn is_useless(&self) -> bool {
         self.under_way.is_some_and(|ImageInProgress { quality, outdated }| match quality {
             Quality::Draft { .. } => false,
+            Quality::Preview => outdated,
             Quality::Full(step) => outdated || !self.wanted.contains(&step),
         })
     }
 
     /// Whether a draft is being drawn that was begun a moment ago.
     pub(crate) fn expects_draft(&self, now: Duration) -> bool {
-        let is_draft = |image: ImageInProgress| matches!(image.quality, Quality::Draft { .. });
-        self.under_way.is_some_and(is_draft) && self.begun.is_some_and(|begun| now < begun + PATIENCE)
+        self.under_way.is_some_and(|image| image.is_draft())
+            && self.begun.is_some_and(|begun| now < begun + PATIENCE)
     }
 
     /// Whether the next step of an animation can be shown.
     pub(crate) fn can_step(&self) -> bool {
-        self.under_way.is_none_or(|image| matches!(image.quality, Quality::Full(_)))
+        self.under_way.is_none_or(|image| !image.is_draft())
     }
 
     /// When to draw next. `animated`: the program itself requests images; `expiry`: when the
@@ -268,6 +279,7 @@ impl Pacing {
             (None, ScreenImage::Draft, AnimationFrames::None) => {
                 Some(self.moved.map_or(now, |moved| moved + REST))
             }
+            (None, ScreenImage::Preview, AnimationFrames::None) => Some(paced),
             (None, ScreenImage::Full(_), AnimationFrames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(frame));
@@ -290,18 +302,24 @@ impl Pacing {
         is_idle && is_final && !self.is_moving(now, animated)
     }
 
-    /// A frame begins: the image to be begun for it, if any.
-    pub(crate) fn begin(&mut self, now: Duration, animated: AnimationFrames) -> Option<Quality> {
+    /// A frame begins: the image to be begun for it, if any. `has_preview`: whether a preview differs from the full image.
+    pub(crate) fn begin(
+        &mut self,
+        now: Duration,
+        animated: AnimationFrames,
+        has_preview: impl FnOnce() -> bool,
+    ) -> Option<Quality> {
         self.drawn = Some(now);
         let moving = self.is_moving(now, animated);
-        let draft =
-            moving || (self.shown == ScreenImage::Old && self.full.is_none_or(|full| full > PATIENCE));
+        let is_slow = self.full.is_none_or(|full| full > PATIENCE);
+        let draft = moving || (self.shown == ScreenImage::Old && is_slow);
         let quality = match self.shown {
             _ if self.under_way.is_some() || self.occupied.is_some() => return None,
             // It will be refined when it rests.
-            ScreenImage::Full(_) | ScreenImage::Draft if moving => return None,
+            ScreenImage::Full(_) | ScreenImage::Preview | ScreenImage::Draft if moving => return None,
             ScreenImage::Full(_) => Quality::Full(self.next_step()?),
             _ if draft => Quality::Draft { shrink: self.budget.shrink() },
+            ScreenImage::Draft if is_slow && has_preview() => Quality::Preview,
             _ => Quality::Full(0),
         };
         self.begun = Some(now);
@@ -327,11 +345,12 @@ impl Pacing {
         self.shown = match quality {
             _ if outdated => ScreenImage::Old,
             Quality::Full(step) => ScreenImage::Full(step),
+            Quality::Preview => ScreenImage::Preview,
             Quality::Draft { .. } => ScreenImage::Draft,
         };
         match quality {
             Quality::Full(0) => self.full = Some(took),
-            Quality::Full(_) => {}
+            Quality::Full(_) | Quality::Preview => {}
             Quality::Draft { .. } => self.budget.took(took, pixels),
         }
     }

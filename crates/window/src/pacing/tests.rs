@@ -8,7 +8,14 @@ const fn ms(ms: u64) -> Duration {
 
 /// A frame.
 fn begin(pacing: &mut Pacing, now: Duration, animated: AnimationFrames) -> Option<Quality> {
-    let quality = pacing.begin(now, animated);
+    let quality = pacing.begin(now, animated, || false);
+    pacing.composed();
+    quality
+}
+
+/// A frame of a window whose images have previews.
+fn begin_previewed(pacing: &mut Pacing, now: Duration) -> Option<Quality> {
+    let quality = pacing.begin(now, AnimationFrames::None, || true);
     pacing.composed();
     quality
 }
@@ -66,6 +73,53 @@ fn a_movement_is_drawn_as_a_draft_and_refined_once() {
     pacing.changed(Change::Moving, ms(1000));
     let begun = run(&mut pacing, ms(1000), ms(100_000), AnimationFrames::None);
     assert_eq!(begun, [(ms(1000), DRAFT), (ms(1150), FULL)], "a draft at once, refined at rest");
+}
+
+/// Whoever stopped moving looked at a draft for as long as the rays took.
+#[test]
+fn between_a_draft_and_a_slow_image_there_is_a_preview() {
+    for (full, begun) in [(PATIENCE, vec![FULL]), (2 * PATIENCE, vec![Quality::Preview, FULL])] {
+        let mut pacing = rested(full);
+        pacing.changed(Change::Moving, ms(1000));
+        assert_eq!(begin_previewed(&mut pacing, ms(1000)), Some(DRAFT), "moving");
+        pacing.finished(ms(1), ms(1));
+        assert_eq!(pacing.next(ms(1001), AnimationFrames::None, None), Wake::At(ms(1017)), "the frame");
+        assert_eq!(begin_previewed(&mut pacing, ms(1020)), None, "it may move on");
+        let mut now = ms(1000) + REST;
+        for quality in begun {
+            assert_eq!(pacing.next(now, AnimationFrames::None, None), Wake::Now, "{quality:?}");
+            assert_eq!(begin_previewed(&mut pacing, now), Some(quality));
+            assert!(!pacing.is_useless() && !pacing.is_resting(now, AnimationFrames::None), "{quality:?}");
+            pacing.finished(full / 4, full / 4);
+            now += REST;
+        }
+        begin_previewed(&mut pacing, now);
+        assert!(pacing.is_resting(now, AnimationFrames::None), "and no more");
+        assert_eq!(pacing.next(now, AnimationFrames::None, None), Wake::Never);
+    }
+}
+
+#[test]
+fn a_preview_gives_way_to_movement() {
+    let mut pacing = rested(2 * PATIENCE);
+    for is_done in [false, true] {
+        pacing.changed(Change::Settled, ms(1000));
+        assert_eq!(begin_previewed(&mut pacing, ms(1000)), Some(DRAFT), "first");
+        pacing.finished(ms(1), ms(1));
+        assert_eq!(begin_previewed(&mut pacing, ms(1020)), Some(Quality::Preview), "then");
+        assert_eq!(pacing.progress(ms(1030)), None, "less than a second");
+        assert_eq!(pacing.progress(ms(2030)), Some(Progress::Drawing { seconds: 1 }));
+        if is_done {
+            pacing.finished(ms(50), ms(50));
+        }
+        pacing.changed(Change::Moving, ms(2040));
+        assert_eq!(pacing.is_useless(), !is_done, "of what was there before");
+        if !is_done {
+            pacing.cancelled();
+        }
+        assert_eq!(begin_previewed(&mut pacing, ms(2050)), Some(DRAFT), "of what is there now");
+        pacing.finished(ms(1), ms(1));
+    }
 }
 
 #[test]

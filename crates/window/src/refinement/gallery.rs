@@ -11,7 +11,7 @@ use crate::pacing::Quality;
 use crate::panes::Views;
 use crate::shown::{DrawnNodes, Shown};
 
-/// Images of one state of the scene: a draft, the one that the settings define, the best so far,
+/// Images of one state of the scene: a draft or a preview, the one that the settings define, the best so far,
 /// and the difference between the last two.
 #[derive(Default)]
 pub(crate) struct Gallery {
@@ -41,7 +41,9 @@ impl Gallery {
     /// Adds an image. Those of other states of the scene are returned.
     pub(crate) fn add(&mut self, quality: Quality, Shown { frame, views, nodes }: Shown, took: Duration) {
         match quality {
-            Quality::Draft { .. } => *self = Self { draft: Some(frame), ..Self::default() },
+            Quality::Draft { .. } | Quality::Preview => {
+                *self = Self { draft: Some(frame), ..Self::default() }
+            }
             Quality::Full(0) => {
                 let report = QualityReport { settings: took, ..QualityReport::default() };
                 let best = Some(Arc::clone(&frame));

@@ -41,7 +41,7 @@ impl Session<'_> {
                 let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
                 self.gallery.add(quality, Shown { frame, views, nodes }, took);
                 self.drawn_subject.clone_from(&self.subject);
-                if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
+                if !matches!(quality, Quality::Full(1..)) {
                     self.stage.set_report(FrameReport {
                         render: took,
                         stages,
@@ -146,7 +146,7 @@ impl Session<'_> {
         }
     }
 
-    /// What is to be done for the window; `None` if there is nothing to be compared.
+    /// What is to be done for the window; `None` if there is nothing to be compared or previewed.
     fn task(&mut self, quality: Quality) -> Option<Task> {
         let purpose = Purpose::Window(quality);
         let step = match quality {
@@ -156,6 +156,9 @@ impl Session<'_> {
                     *drawer = self.stage.drawer.clone().filter(|drawer| drawer.draws_drafts());
                 }
                 return Some(task);
+            }
+            Quality::Preview => {
+                return self.stage.preview_settings().map(|settings| self.drawing(purpose, settings));
             }
             Quality::Full(step) => step,
         };

@@ -194,7 +194,8 @@ impl<'a> Session<'a> {
         if self.pacing.can_step() {
             self.step(now);
         }
-        if let Some(quality) = self.pacing.begin(now, self.frames()) {
+        let (frames, has_preview) = (self.frames(), || self.stage.preview_settings().is_some());
+        if let Some(quality) = self.pacing.begin(now, frames, has_preview) {
             self.begin_image(quality);
             self.collect(now);
         }

@@ -2,7 +2,7 @@
 
 use trigon_camera::{Orbit, Viewport};
 use trigon_scene::quality::Preset;
-use trigon_scene::{RenderSettings, Shadows, SightRays};
+use trigon_scene::{Node, RaySampling, RenderSettings, Shadows, SightRays};
 
 use super::Stage;
 use crate::drawer::DrawnBy;
@@ -10,6 +10,9 @@ use crate::panes::Area;
 use crate::refinement::{self, Comparison, Refinement, Wanted};
 use crate::shared_scene::Revision;
 use crate::shown;
+
+/// Of so many rays at each pixel, a preview casts a quarter or less: 64 that pixels share are one at each.
+const LONG_RAYS: u32 = 4;
 
 impl Stage {
     /// How the window's images at rest are drawn, step by step.
@@ -54,6 +57,37 @@ impl Stage {
             *bounces = (*bounces).min(most.glass_bounces);
         }
         self.fitted(settings, shrink)
+    }
+
+    /// How the image at rest is drawn first if its rays take long: with rays that pixels share, as in the better presets of
+    /// those that have them. `None` if no rays start at every sample, or if few do.
+    pub(crate) fn preview_settings(&self) -> Option<RenderSettings> {
+        let mut settings = self.settings.clone();
+        let shaded = settings.samples_per_axis.saturating_pow(2);
+        let takes_long =
+            |rays: u32, sampling| sampling == RaySampling::Full && rays.saturating_mul(shaded) >= LONG_RAYS;
+        let (effects, mut is_changed) = (&mut settings.effects, false);
+        if let Some(occlusion) = &mut effects.ambient_occlusion
+            && takes_long(occlusion.rays, occlusion.sampling)
+        {
+            let shared = Preset::Standard.quality();
+            (occlusion.rays, occlusion.sampling) = (shared.occlusion_rays, shared.occlusion_sampling);
+            is_changed = true;
+        }
+        let soft = &mut effects.soft_shadows;
+        if effects.shadows == Shadows::Rays && takes_long(soft.rays, soft.sampling) && self.has_wide_lamps() {
+            let shared = Preset::High.quality();
+            (soft.rays, soft.sampling) = (shared.shadow_rays, shared.shadow_sampling);
+            is_changed = true;
+        }
+        (is_changed && self.drawer.is_none()).then(|| self.fitted(settings, 1.0))
+    }
+
+    /// Whether the rays to a lamp are more than one.
+    fn has_wide_lamps(&self) -> bool {
+        let is_wide = |node: &Node| node.light.as_ref().is_some_and(|light| light.radius > 0.0);
+        self.settings.effects.soft_shadows.radius > 0.0
+            || self.scene.nodes().iter().any(|(_, node)| is_wide(node))
     }
 
     /// What draws the window's image again: [`Stage::settings`] for the window's size, with line widths in

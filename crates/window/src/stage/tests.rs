@@ -5,7 +5,9 @@ use crate::refinement::Wanted;
 use crate::shown;
 use trigon_mesh::primitives;
 use trigon_scene::quality::Preset;
-use trigon_scene::{AmbientOcclusion, Material, Outputs, RaySampling, Shadows, SightRays, VertexPoints};
+use trigon_scene::{
+    AmbientOcclusion, Light, Material, Node, Outputs, RaySampling, Shadows, SightRays, VertexPoints,
+};
 
 fn stage() -> Stage {
     let mut stage = Stage::new("test");
@@ -146,6 +148,40 @@ fn drafts_have_no_more_rays_than_the_draft_preset() {
             "glass stays glass"
         );
     }
+}
+
+#[test]
+fn previews_share_rays_that_would_start_at_every_sample() {
+    let mut stage = stage();
+    (stage.settings.samples_per_axis, stage.settings.effects.shadows) = (2, Shadows::Rays);
+    assert_eq!(stage.preview_settings(), None, "one ray to a lamp without an extent");
+    let occlusion = |rays, sampling| Some(AmbientOcclusion { sampling, ..AmbientOcclusion::new(rays, 1.0) });
+    let shared = |preset: Preset| (preset.quality().occlusion_rays, preset.quality().shadow_rays);
+    stage.settings.effects.ambient_occlusion = occlusion(16, RaySampling::Full);
+    let preview = stage.preview_settings().expect("64 rays a pixel");
+    let mut expected = stage.ladder()[0].clone();
+    expected.effects.ambient_occlusion = occlusion(shared(Preset::Standard).0, RaySampling::Shared);
+    assert_eq!(preview, expected, "all else as at rest");
+    for (rays, sampling) in [(1, RaySampling::Full), (16, RaySampling::Shared)] {
+        stage.settings.effects.ambient_occlusion = occlusion(rays, sampling);
+        assert_eq!(
+            stage.preview_settings().is_some(),
+            sampling == RaySampling::Full,
+            "four rays a pixel, or shared"
+        );
+    }
+    let lamp =
+        Node { light: Some(Box::new(Light { radius: 0.1, ..Light::point(1.0) })), ..Node::new("lamp") };
+    stage.scene.add(lamp);
+    let preview = stage.preview_settings().expect("its shadow is soft").effects;
+    let soft = preview.soft_shadows;
+    assert_eq!((soft.rays, soft.sampling), (shared(Preset::High).1, RaySampling::Shared));
+    assert_eq!(
+        preview.ambient_occlusion, stage.settings.effects.ambient_occlusion,
+        "they are shared already"
+    );
+    stage.settings.effects.shadows = Shadows::Maps { resolution: 64 };
+    assert_eq!(stage.preview_settings(), None, "maps need no rays");
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn drafts_are_picked_where_they_are_shown() {
     // Three drafts took so long that the next one is small.
     for _ in 0..3 {
         session.pacing.changed(Change::Moving, now);
-        session.pacing.begin(now, AnimationFrames::None);
+        session.pacing.begin(now, AnimationFrames::None, || false);
         session.pacing.finished(ms(300), ms(300));
     }
     now += ms(1000);

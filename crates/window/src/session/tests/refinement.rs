@@ -61,6 +61,34 @@ fn at_rest_the_image_becomes_the_reference_and_then_nothing_runs() {
     assert_eq!(session.next(now + Duration::from_secs(3600)), Wake::Never, "silence");
 }
 
+/// Between a draft and the rays of every sample, which take long, comes an image whose pixels share theirs.
+#[test]
+fn rays_are_shared_until_those_of_every_sample_are_there() {
+    let (mut handler, mut stage) = (Recorder::default(), coarse_stage(Refinement::Settings));
+    stage.settings.effects.ambient_occlusion = Some(trigon_scene::AmbientOcclusion::new(16, 1.0));
+    let mut session = opened(stage, &mut handler);
+    let (mut now, mut seen) = (ms(0), Vec::new());
+    while let wake @ (Wake::Now | Wake::At(_)) = session.next(now) {
+        if let Wake::At(later) = wake {
+            now = later;
+        }
+        draw(&mut session, now);
+        let shown = session.shown.clone().expect("an image");
+        if seen.last() != Some(&shown) {
+            assert!(session.gallery.report().is_none() || seen.len() == 2, "only the image at rest is timed");
+            seen.push(shown);
+        }
+    }
+    let drawn = |settings: &RenderSettings| render(&session.stage.scene, &session.stage.camera(), settings);
+    let stage = &session.stage;
+    let [draft, preview] = [stage.draft_settings(1.0), stage.preview_settings().expect("16 rays")];
+    let expected = [draft, preview, stage.ladder()[0].clone()];
+    assert_eq!(seen.len(), expected.len());
+    for (shown, settings) in seen.iter().zip(expected) {
+        assert!(**shown == drawn(&settings).expect("drawn"), "{:?}", settings.effects.ambient_occlusion);
+    }
+}
+
 #[test]
 fn refining_can_be_switched_on_and_off_and_shows_what_is_there() {
     let mut handler = Recorder::default();
