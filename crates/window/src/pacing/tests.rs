@@ -83,7 +83,11 @@ fn between_a_draft_and_a_slow_image_there_is_a_preview() {
         pacing.changed(Change::Moving, ms(1000));
         assert_eq!(begin_previewed(&mut pacing, ms(1000)), Some(DRAFT), "moving");
         pacing.finished(ms(1), ms(1));
-        assert_eq!(pacing.next(ms(1001), AnimationFrames::None, None), Wake::At(ms(1017)), "the frame");
+        assert_eq!(
+            pacing.next(ms(1001), AnimationFrames::None, None),
+            Wake::At(ms(1000) + FRAME),
+            "the frame"
+        );
         assert_eq!(begin_previewed(&mut pacing, ms(1020)), None, "it may move on");
         let mut now = ms(1000) + REST;
         for quality in begun {
@@ -102,22 +106,23 @@ fn between_a_draft_and_a_slow_image_there_is_a_preview() {
 #[test]
 fn a_preview_gives_way_to_movement() {
     let mut pacing = rested(2 * PATIENCE);
-    for is_done in [false, true] {
-        pacing.changed(Change::Settled, ms(1000));
-        assert_eq!(begin_previewed(&mut pacing, ms(1000)), Some(DRAFT), "first");
+    for (start, is_done) in [(ms(1000), false), (ms(5000), true)] {
+        let after = |millis| start + ms(millis);
+        pacing.changed(Change::Settled, start);
+        assert_eq!(begin_previewed(&mut pacing, start), Some(DRAFT), "first");
         pacing.finished(ms(1), ms(1));
-        assert_eq!(begin_previewed(&mut pacing, ms(1020)), Some(Quality::Preview), "then");
-        assert_eq!(pacing.progress(ms(1030)), None, "less than a second");
-        assert_eq!(pacing.progress(ms(2030)), Some(Progress::Drawing { seconds: 1 }));
+        assert_eq!(begin_previewed(&mut pacing, after(20)), Some(Quality::Preview), "then");
+        assert_eq!(pacing.progress(after(30)), None, "less than a second");
+        assert_eq!(pacing.progress(after(1030)), Some(Progress::Drawing { seconds: 1 }));
         if is_done {
             pacing.finished(ms(50), ms(50));
         }
-        pacing.changed(Change::Moving, ms(2040));
+        pacing.changed(Change::Moving, after(1040));
         assert_eq!(pacing.is_useless(), !is_done, "of what was there before");
         if !is_done {
             pacing.cancelled();
         }
-        assert_eq!(begin_previewed(&mut pacing, ms(2050)), Some(DRAFT), "of what is there now");
+        assert_eq!(begin_previewed(&mut pacing, after(1050)), Some(DRAFT), "of what is there now");
         pacing.finished(ms(1), ms(1));
     }
 }

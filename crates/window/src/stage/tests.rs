@@ -170,9 +170,7 @@ fn previews_share_rays_that_would_start_at_every_sample() {
             "four rays a pixel, or shared"
         );
     }
-    let lamp =
-        Node { light: Some(Box::new(Light { radius: 0.1, ..Light::point(1.0) })), ..Node::new("lamp") };
-    stage.scene.add(lamp);
+    stage.scene.add(Node::from_light(Light { radius: 0.1, ..Light::point(1.0) }));
     let preview = stage.preview_settings().expect("its shadow is soft").effects;
     let soft = preview.soft_shadows;
     assert_eq!((soft.rays, soft.sampling), (shared(Preset::High).1, RaySampling::Shared));

@@ -65,6 +65,9 @@ fn at_rest_the_image_becomes_the_reference_and_then_nothing_runs() {
 #[test]
 fn rays_are_shared_until_those_of_every_sample_are_there() {
     let (mut handler, mut stage) = (Recorder::default(), coarse_stage(Refinement::Settings));
+    let floor = stage.scene.add_object("floor", primitives::cube(4.0), Material::default());
+    stage.scene.node_mut(floor).expect("just added").transform.translate(DVec3::NEG_Y * 2.5);
+    stage.set_home_direction(DVec3::new(0.0, -1.0, -1.0));
     stage.settings.effects.ambient_occlusion = Some(trigon_scene::AmbientOcclusion::new(16, 1.0));
     let mut session = opened(stage, &mut handler);
     let (mut now, mut seen) = (ms(0), Vec::new());
