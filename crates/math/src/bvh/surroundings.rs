@@ -72,12 +72,12 @@ impl Bvh {
     pub fn surroundings<S: Simd>(&self, simd: S, hemispheres: &Hemispheres<S>) -> Surroundings {
         simd.vectorize(
             #[inline(always)]
-            || self.surroundings_at(simd, &ActiveHemispheres::new(self, hemispheres)),
+            || self.surroundings_at(simd, &JointHemisphere::new(self, hemispheres)),
         )
     }
 
     #[inline(always)]
-    fn surroundings_at<S: Simd>(&self, simd: S, hemispheres: &ActiveHemispheres) -> Surroundings {
+    fn surroundings_at<S: Simd>(&self, simd: S, hemispheres: &JointHemisphere) -> Surroundings {
         let mut found = Surroundings { nodes: [Node::EMPTY; NODES], count: 0 };
         let mut root = Node::EMPTY;
         let [min, max] = self.extent;
@@ -119,102 +119,87 @@ impl Bvh {
     }
 }
 
-/// The active ones of eight hemispheres.
-struct ActiveHemispheres {
-    list: [Hemisphere; WIDTH],
-    count: usize,
+/// Bounds of the points and of the normals of all active hemispheres. Neighbours lie close together, so one test with these
+/// replaces eight, and finds whatever one of the eight would: rounding keeps the order of offsets, products and sums.
+struct JointHemisphere {
+    /// The least and the greatest, by axis.
+    origin: [[f32; 2]; 3],
+    normal: [[f32; 2]; 3],
     /// The least height of anything that rays hit.
     below: f32,
     /// The square of the greatest distance.
     reach: f32,
 }
 
-#[derive(Clone, Copy)]
-struct Hemisphere {
-    origin: [f32; 3],
-    normal: [f32; 3],
-}
-
-impl ActiveHemispheres {
+impl JointHemisphere {
     #[inline(always)]
     fn new<S: Simd>(tree: &Bvh, all: &Hemispheres<S>) -> Self {
-        let by_axis =
-            |values: &[f32x8<S>; 3]| -> [Eight; 3] { [values[0].into(), values[1].into(), values[2].into()] };
-        let (origins, normals) = (by_axis(&all.origin), by_axis(&all.normal));
-        let mut list = [Hemisphere { origin: [0.0; 3], normal: [0.0; 3] }; WIDTH];
         let [min, max] = tree.extent;
-        let mut largest = min.abs().max(max.abs()).max_element();
-        let (mut left, mut count) = (all.active, 0);
-        while let Some(lane) = next_bit(&mut left) {
-            let of = |values: &[Eight; 3]| [values[0][lane], values[1][lane], values[2][lane]];
-            list[count % WIDTH] = Hemisphere { origin: of(&origins), normal: of(&normals) };
-            largest = of(&origins).iter().fold(largest, |largest, value| largest.max(value.abs()));
-            count += 1;
-        }
+        let (origin, normal) =
+            (all.origin.map(|axis| range(axis, all.active)), all.normal.map(|axis| range(axis, all.active)));
+        let largest = min.abs().max(max.abs()).max_element();
+        let largest = origin.iter().flatten().fold(largest, |largest, value| largest.max(value.abs()));
         let below = largest * BELOW;
         let reach = all.distance * (1.0 + BELOW) + below;
-        Self { list, count, below: -below, reach: reach * reach }
+        Self { origin, normal, below: -below, reach: reach * reach }
     }
 
     /// The boxes that rays may enter, one bit for each.
     #[inline(always)]
     fn near_boxes<S: Simd>(&self, simd: S, node: &Node) -> u32 {
-        let mut near = mask32x8::splat(simd, false);
-        for hemisphere in &self.list[..self.count] {
-            let is_above = hemisphere.box_heights(simd, node).simd_ge(self.below);
-            near |= is_above & hemisphere.box_distances(simd, node).simd_le(self.reach);
+        let [mut heights, mut squares] = [f32x8::splat(simd, 0.0); 2];
+        // Where numbers are too large for their squares, comparisons of infinities must not leave a box out, nor find one
+        // that is not there.
+        let mut is_box = mask32x8::splat(simd, true);
+        for (axis, [low, high]) in node.sides.iter().enumerate() {
+            let [least, most] = self.offsets(simd, axis, [low, high]);
+            is_box &= least.simd_le(most);
+            heights += self.highest(axis, [least, most]);
+            let outside = greater(greater(least, -most), f32x8::splat(simd, 0.0));
+            squares += outside * outside;
         }
-        near.to_bitmask() as u32
+        (is_box & !heights.simd_lt(self.below) & !squares.simd_gt(self.reach)).to_bitmask() as u32
     }
 
     /// The triangles that rays may hit, one bit for each.
     #[inline(always)]
     fn near_triangles<S: Simd>(&self, simd: S, leaf: &Leaf) -> u32 {
         let mut near = mask32x8::splat(simd, false);
-        for hemisphere in &self.list[..self.count] {
-            for corner in &leaf.corners {
-                near |= hemisphere.heights(simd, corner).simd_ge(self.below);
+        for corner in &leaf.corners {
+            let mut heights = f32x8::splat(simd, 0.0);
+            for (axis, values) in corner.iter().enumerate() {
+                heights += self.highest(axis, self.offsets(simd, axis, [values; 2]));
             }
+            let x = f32x8::simd_from(simd, corner[0]);
+            near |= x.simd_eq(x) & !heights.simd_lt(self.below);
         }
         near.to_bitmask() as u32
     }
+
+    /// The least and the greatest offset along an axis from any point to ranges of eight boxes.
+    #[inline(always)]
+    fn offsets<S: Simd>(&self, simd: S, axis: usize, [low, high]: [&Eight; 2]) -> [f32x8<S>; 2] {
+        let [first, last] = self.origin[axis];
+        [f32x8::simd_from(simd, *low) - last, f32x8::simd_from(simd, *high) - first]
+    }
+
+    /// What offsets along an axis add at most to a height.
+    #[inline(always)]
+    fn highest<S: Simd>(&self, axis: usize, [least, most]: [f32x8<S>; 2]) -> f32x8<S> {
+        let [low, high] = self.normal[axis];
+        greater(greater(least * low, least * high), greater(most * low, most * high))
+    }
 }
 
-impl Hemisphere {
-    /// How far eight points lie along the normal.
-    #[inline(always)]
-    fn heights<S: Simd>(&self, simd: S, points: &[Eight; 3]) -> f32x8<S> {
-        let mut heights = f32x8::splat(simd, 0.0);
-        for ((points, origin), normal) in points.iter().zip(self.origin).zip(self.normal) {
-            heights += (f32x8::simd_from(simd, *points) - origin) * normal;
-        }
-        heights
+/// The least and the greatest of the active values.
+#[inline(always)]
+fn range<S: Simd>(values: f32x8<S>, active: u32) -> [f32; 2] {
+    let values: Eight = values.into();
+    let [mut least, mut most] = [f32::INFINITY, f32::NEG_INFINITY];
+    let mut left = active;
+    while let Some(lane) = next_bit(&mut left) {
+        let value = values[lane % WIDTH];
+        (least, most) = (if value < least { value } else { least }, if value > most { value } else { most });
     }
-
-    /// How far eight boxes reach along the normal.
-    #[inline(always)]
-    fn box_heights<S: Simd>(&self, simd: S, node: &Node) -> f32x8<S> {
-        let mut heights = f32x8::splat(simd, 0.0);
-        for axis in 0..3 {
-            let [low, high] = &node.sides[axis];
-            let low = (f32x8::simd_from(simd, *low) - self.origin[axis]) * self.normal[axis];
-            let high = (f32x8::simd_from(simd, *high) - self.origin[axis]) * self.normal[axis];
-            heights += greater(low, high);
-        }
-        heights
-    }
-
-    /// The squares of the distances to eight boxes.
-    #[inline(always)]
-    fn box_distances<S: Simd>(&self, simd: S, node: &Node) -> f32x8<S> {
-        let mut squares = f32x8::splat(simd, 0.0);
-        for axis in 0..3 {
-            let origin = f32x8::splat(simd, self.origin[axis]);
-            let [low, high] = &node.sides[axis];
-            let [low, high] = [f32x8::simd_from(simd, *low) - origin, origin - f32x8::simd_from(simd, *high)];
-            let outside = greater(greater(low, high), f32x8::splat(simd, 0.0));
-            squares += outside * outside;
-        }
-        squares
-    }
+    [least, most]
 }

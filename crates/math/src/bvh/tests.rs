@@ -239,7 +239,8 @@ fn eight_at_once(bvh: &Bvh, rays: &[Ray]) -> ([Option<RayHit>; 8], u32) {
 #[derive(Debug)]
 struct Outlook {
     points: Vec<[Vec3; 2]>,
-    rays: Vec<Ray>,
+    /// Of each point.
+    rays: Vec<Vec<Ray>>,
     distance: f32,
 }
 
@@ -261,13 +262,38 @@ fn outlook(scene: &FarScene, turns: &[Vec3], share: f32) -> Outlook {
     let points = scene.triangles.iter().map(on).filter(|[_, normal]| *normal != Vec3::ZERO);
     let points: Vec<[Vec3; 2]> = points.take(8).collect();
     let into = |normal: Vec3, turn: Vec3| if turn.dot(normal) < 0.0 { -turn } else { turn };
-    let rays = points.iter().flat_map(|&[origin, normal]| {
-        let aims = scene.triangles.iter().map(move |corners| (middle(corners) - origin).normalize_or_zero());
-        let aims = aims.filter(move |aim| aim.dot(normal) >= 0.0);
-        let turned = turns.iter().map(move |&turn| into(normal, turn.normalize_or_zero()));
-        turned.chain(aims).map(move |direction| Ray { origin, direction })
+    let rays = points.iter().map(|&[origin, normal]| {
+        let aims = scene.triangles.iter().map(|corners| (middle(corners) - origin).normalize_or_zero());
+        let aims = aims.filter(|aim| aim.dot(normal) >= 0.0);
+        let turned = turns.iter().map(|&turn| into(normal, turn.normalize_or_zero()));
+        turned.chain(aims).map(|direction| Ray { origin, direction }).collect()
     });
     Outlook { rays: rays.collect(), distance: (most - least).length() * share, points }
+}
+
+/// Holds rays that start among the surroundings of all points, of two and of one to those from the root, at every level.
+fn check_surroundings(scene: &FarScene, turns: &[Vec3], share: f32) {
+    let Outlook { points, rays, distance } = outlook(scene, turns, share);
+    let column = |side: usize, axis: usize| -> [f32; 8] {
+        std::array::from_fn(|lane| points.get(lane).map_or(0.0, |point| point[side][axis]))
+    };
+    let columns = [0, 1].map(|side| [0, 1, 2].map(|axis| column(side, axis)));
+    let all = points.len();
+    let some = |count: usize| (0..all).map(move |first| first..(first + count).min(all));
+    for level in Token::all() {
+        let bvh = Bvh { level, ..Bvh::new(&scene.triangles) };
+        for active in some(all).take(1).chain(some(2)).chain(some(1)) {
+            let bits = active.clone().map(|lane| 1 << lane).sum();
+            for ray in rays[active].iter().flatten() {
+                let is_occluded = at_level!(level, simd => {
+                    let [origin, normal] = columns.map(|axes| axes.map(|column| f32x8::simd_from(simd, column)));
+                    let surroundings = bvh.surroundings(simd, &Hemispheres { origin, normal, distance, active: bits });
+                    bvh.occluded_rays(simd, &Rays::one(simd, ray, 0.0..distance), Some(&surroundings)) != 0
+                });
+                assert_eq!(is_occluded, bvh.occluded(ray, 0.0..distance), "{level:?} {bits:b} {ray:?}");
+            }
+        }
+    }
 }
 
 proptest! {
@@ -356,28 +382,14 @@ proptest! {
     fn surroundings_hold_all_that_rays_into_hemispheres_hit(
         scene in far_scene(), turns in prop::collection::vec(vector(), 8), share in 0.02_f32..1.0,
     ) {
-        let Outlook { points, rays, distance } = outlook(&scene, &turns, share);
-        for level in Token::all() {
-            let bvh = Bvh { level, ..Bvh::new(&scene.triangles) };
-            let column = |side: usize, axis: usize| -> [f32; 8] {
-                std::array::from_fn(|lane| points.get(lane).map_or(0.0, |point| point[side][axis]))
-            };
-            let occluded: Vec<bool> = at_level!(level, simd => {
-                let columns = |side: usize| [0, 1, 2].map(|axis| f32x8::simd_from(simd, column(side, axis)));
-                let hemispheres = Hemispheres {
-                    origin: columns(0), normal: columns(1), distance, active: (1 << points.len()) - 1,
-                };
-                let surroundings = bvh.surroundings(simd, &hemispheres);
-                let is_occluded = |ray: &Ray| {
-                    let ray = Rays::one(simd, ray, 0.0..distance);
-                    bvh.occluded_rays(simd, &ray, Some(&surroundings)) != 0
-                };
-                rays.iter().map(is_occluded).collect()
-            });
-            for (ray, occluded) in rays.iter().zip(occluded) {
-                prop_assert_eq!(occluded, bvh.occluded(ray, 0.0..distance), "{:?} {:?}", level, ray);
-            }
-        }
+        check_surroundings(&scene, &turns, share);
+    }
+
+    #[test]
+    fn surroundings_hold_all_that_rays_hit_for_all_numbers(
+        scene in wild_scene(), turns in prop::collection::vec(vector(), 8), share in 0.02_f32..1.0,
+    ) {
+        check_surroundings(&scene, &turns, share);
     }
 
     /// By the cross products of Möller and Trumbore in f64, where rounding leaves no doubt.
@@ -409,6 +421,25 @@ proptest! {
         let ray = Ray { origin: origin * 0.2, direction };
         let hit = Bvh::new(&triangles).nearest(&ray, 0.0..f32::INFINITY);
         prop_assert!(hit.is_some(), "{:?} leaves the cube", ray);
+    }
+}
+
+/// Squares of such distances are infinite, as are those of the distances to boxes that are not there.
+#[test]
+fn rays_that_go_as_far_as_numbers_go_enter_no_empty_box() {
+    let triangle = [Vec3::new(-1.0, -1.0, 1.0), Vec3::new(1.0, -1.0, 1.0), Vec3::new(0.0, 1.0, 1.0)];
+    for distance in [1e30, f32::MAX, f32::INFINITY] {
+        for level in Token::all() {
+            let bvh = Bvh { level, ..Bvh::new(&[triangle]) };
+            let ray = Ray { origin: Vec3::ZERO, direction: Vec3::new(0.1, 0.1, 1.0) };
+            let is_occluded = at_level!(level, simd => {
+                let splat = |vector: Vec3| vector.to_array().map(|value| f32x8::splat(simd, value));
+                let (origin, normal) = (splat(Vec3::ZERO), splat(Vec3::new(0.6, 0.48, 0.64)));
+                let surroundings = bvh.surroundings(simd, &Hemispheres { origin, normal, distance, active: 0xff });
+                bvh.occluded_rays(simd, &Rays::one(simd, &ray, 0.0..distance), Some(&surroundings)) != 0
+            });
+            assert!(is_occluded, "{distance} {level:?}");
+        }
     }
 }
 

@@ -55,12 +55,15 @@ impl AmbientRays {
             || {
                 let normal = turned(&scene.turn(), points.facing);
                 let is_turned = !(normal[0].simd_eq(0.0) & normal[1].simd_eq(0.0) & normal[2].simd_eq(0.0));
+                let [zero, one] = [F32::splat(simd, 0.0), F32::splat(simd, 1.0)];
                 let active = is_turned.to_bitmask() as u32 & active as u32;
+                if active == 0 {
+                    return one;
+                }
                 let origin = scene.origins(simd, points);
                 let surroundings = Hemispheres { origin, normal, distance: self.distance, active };
                 let surroundings = scene.triangles.bvh.surroundings(simd, &surroundings);
-                let [zero, one] = [F32::splat(simd, 0.0), F32::splat(simd, 1.0)];
-                if active == 0 || surroundings.is_empty() {
+                if surroundings.is_empty() {
                     return one;
                 }
                 let frames = frames(simd, normal, self.pattern.turns(pixels, part));

@@ -19,9 +19,7 @@ use trigon_math::simd::Token;
 use trigon_math::{DMat4, Vec3, Vec4, at_level};
 use trigon_raster::Rasterizer;
 use trigon_raster::simd::prelude::*;
-use trigon_raster::simd::{
-    F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lane_numbers, lanes_of, lesser,
-};
+use trigon_raster::simd::{F32, I32, InlineMap, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser};
 
 use crate::lanes::{V3, dot, positive};
 use crate::lighting::LitPoints;
@@ -52,10 +50,8 @@ const NARROW: f32 = -1e30;
 #[derive(Debug)]
 pub(crate) struct OpennessBuffer {
     view: SmallView,
-    /// Row by row, with empty pixels around them.
-    open: Vec<f32>,
-    /// Along the axis of the view, in metres.
-    distances: Vec<f32>,
+    /// Along the axis of the view, in metres, and the fraction: row by row, with empty pixels around them.
+    pixels: Vec<[f32; 2]>,
 }
 
 /// How a small image sees the space of its camera.
@@ -150,11 +146,12 @@ impl OpennessBuffer {
             OpennessOf::Surroundings => means,
             OpennessOf::Lamp(_) => surfaces.each_row(Some(&means), rasterizer),
         };
-        Self { view: small.view, open, distances: surfaces.distances }
+        let pixels = surfaces.distances.into_iter().zip(open).map(|(distance, open)| [distance, open]);
+        Self { view: small.view, pixels: pixels.collect() }
     }
 
     pub(crate) fn byte_count(&self) -> usize {
-        size_of_val(self.open.as_slice()) + size_of_val(self.distances.as_slice())
+        size_of_val(self.pixels.as_slice())
     }
 
     /// The fraction at eight points, and which of them it is known for. The positions are in pixels of the image.
@@ -190,21 +187,9 @@ impl OpennessBuffer {
         let first = indices([column, row], stride);
         let (mut sum, mut open) = (zero, zero);
         for (below, row_weight) in [(0, one - down), (1, down)] {
+            let pairs = self.pairs(simd, first, below * stride);
             for (beside, column_weight) in [(0, one - across), (1, across)] {
-                let offset = below * stride + beside;
-                let fetched = inlined(
-                    #[inline(always)]
-                    |values: &[f32]| {
-                        F32::simd_from(
-                            simd,
-                            lanes_of(
-                                #[inline(always)]
-                                |lane| values[first[lane] + offset],
-                            ),
-                        )
-                    },
-                );
-                let (distance, fraction) = (fetched(&self.distances), fetched(&self.open));
+                let [distance, fraction] = pairs[beside];
                 let spread = view.spread(distance);
                 let x = view.slopes(0, column + beside as f32) * spread;
                 let y = view.slopes(1, row + below as f32) * spread;
@@ -216,6 +201,29 @@ impl OpennessBuffer {
         }
         let known = sum.simd_ge(LEAST);
         (known.select(open / sum, one), known)
+    }
+
+    /// Distance and fraction of eight pixels that lie so far behind the first ones, and of the next ones in their rows.
+    #[inline(always)]
+    fn pairs<S: Simd>(&self, simd: S, first: [usize; LANES], offset: usize) -> [[F32<S>; 2]; 2] {
+        let mut values = [[[0.0; LANES]; 2]; 2];
+        for (lane, first) in first.into_iter().enumerate() {
+            let pair: &[[f32; 2]] = &self.pixels[first + offset..first + offset + 2];
+            for (values, pixel) in values.iter_mut().zip(pair) {
+                for (values, value) in values.iter_mut().zip(pixel) {
+                    values[lane] = *value;
+                }
+            }
+        }
+        values.each(
+            #[inline(always)]
+            |pixel| {
+                pixel.each(
+                    #[inline(always)]
+                    |values| F32::simd_from(simd, values),
+                )
+            },
+        )
     }
 }
 
@@ -287,19 +295,24 @@ impl Surfaces {
         let inverse = one / (view.spread(distance) * view.widest());
         let (mut sum, mut open) = (zero, zero);
         for (down, down_weight) in MEAN.iter().enumerate() {
+            let row = row + down - REACH;
+            let start = row * view.stride() + column - REACH;
+            let (distances, fractions) = (part(&self.distances, start), part(&self.open, start));
+            let normals = self.normals.each_ref().each(
+                #[inline(always)]
+                |values| part(values, start),
+            );
             for (across, across_weight) in MEAN.iter().enumerate() {
-                let [column, row] = [column + across - REACH, row + down - REACH];
-                let index = row * view.stride() + column;
-                let off =
-                    dot(normal, view.positions([column, row], eight(simd, &self.distances, index))) - plane;
-                let other = self.normals.each_ref().each(
+                let distance = eight(simd, distances, across);
+                let off = dot(normal, view.positions([column + across - REACH, row], distance)) - plane;
+                let other = normals.each(
                     #[inline(always)]
-                    |values| eight(simd, values, index),
+                    |values| eight(simd, values, across),
                 );
                 let near = positive(one - off.abs() * inverse) * positive(dot(normal, other) * 2.0 - 1.0);
                 let weight = near * (down_weight * across_weight);
                 sum += weight;
-                open += weight * eight(simd, &self.open, index);
+                open += weight * eight(simd, fractions, across);
             }
         }
         sum.simd_gt(0.0).select(open / sum, one)
@@ -364,6 +377,12 @@ fn indices<S: Simd>([column, row]: [F32<S>; 2], stride: usize) -> [usize; LANES]
         #[inline(always)]
         |number| number as usize,
     )
+}
+
+/// The values of eight pixels in a row, and of those around them that count in their means.
+#[inline(always)]
+fn part(values: &[f32], start: usize) -> &[f32; LANES + 2 * REACH] {
+    values[start..].first_chunk().expect("empty pixels lie around the image")
 }
 
 /// Eight values in a row.

@@ -5,7 +5,8 @@
 //! the part: neighbours differ, and the image is reproducible.
 
 use trigon_math::{Vec2, elementary};
-use trigon_raster::simd::{F32, InlineMap, LANES, Simd, inlined};
+use trigon_raster::simd::prelude::*;
+use trigon_raster::simd::{F32, I32, InlineMap, LANES, Simd, inlined};
 
 use crate::effect_settings::RaySampling;
 
@@ -104,17 +105,16 @@ impl RayPart {
     }
 }
 
-/// Where pixels lie in a square of pixels, row by row.
+/// Where pixels lie in a square of pixels, row by row. Its side is a power of two.
 #[inline(always)]
 fn numbers_in_square<S: Simd>([x, y]: [F32<S>; 2], side: usize) -> [usize; LANES] {
-    let [x, y]: [[f32; LANES]; 2] = [x.into(), y.into()];
-    let number = inlined(
+    let within = inlined(
         #[inline(always)]
-        |lane: usize| (y[lane] as usize % side) * side + x[lane] as usize % side,
+        |pixel: F32<S>| pixel.to_int::<I32<S>>() & (side - 1) as i32,
     );
-    let mut numbers = [0; LANES];
-    for (lane, own) in numbers.iter_mut().enumerate() {
-        *own = number(lane);
-    }
-    numbers
+    let numbers: [i32; LANES] = (within(y) * side as i32 + within(x)).into();
+    numbers.each(
+        #[inline(always)]
+        |number| number as usize,
+    )
 }
