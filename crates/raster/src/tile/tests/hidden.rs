@@ -36,8 +36,11 @@ proptest! {
     }
 }
 
-/// A wall over the image up to a column, and draws behind it and before it.
-fn behind_a_wall(end: i32) -> Vec<Heap> {
+/// The width of the image.
+const WIDTH: i32 = 75 * 256;
+
+/// A wall over the image up to a column, draws behind it up to another, and one before it.
+fn behind_a_wall(end: i32, end_behind: i32) -> Vec<Heap> {
     let quad = |[left, right]: [i32; 2]| {
         let bottom = 45 * 256;
         [[[left, 0], [right, 0], [right, bottom]], [[right, bottom], [left, bottom], [left, 0]]]
@@ -47,16 +50,15 @@ fn behind_a_wall(end: i32) -> Vec<Heap> {
         Heap { triangles: heap.triangles.iter().map(flat).collect(), ..heap }
     };
     let layer = |object: u32, end: i32, depth: f32| at(heap(object, 1 + 2 * object, &quad([0, end])), depth);
-    let all = 75 * 256;
-    let behind = (1..20).map(|object| layer(object, all, 0.5 - 0.01 * object as f32));
-    [layer(0, end, 0.75), layer(20, all / 2, 0.875)].into_iter().chain(behind).collect()
+    let behind = (1..20).map(|object| layer(object, end_behind, 0.5 - 0.01 * object as f32));
+    [layer(0, end, 0.75), layer(20, WIDTH / 2, 0.875)].into_iter().chain(behind).collect()
 }
 
 #[test]
 fn what_lies_behind_a_wall_is_left_out() {
     for (samples, threads) in [(1, 1), (4, 2)] {
         let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), ..timed() };
-        let wall = behind_a_wall(75 * 256);
+        let wall = behind_a_wall(WIDTH, WIDTH);
         check(&wall, settings, samples);
         assert_eq!(draw(&wall, settings, samples).1.primitives, 4, "the wall, and what is before it");
         let late = ExecuteSettings { depth_test: DepthTest::Late, ..settings };
@@ -67,9 +69,19 @@ fn what_lies_behind_a_wall_is_left_out() {
 /// Through a gap as wide as the distance of two samples, the nearest of them is visible.
 #[test]
 fn a_gap_in_a_wall_hides_nothing() {
-    for end in [74 * 256 + 120, 74 * 256 + 140, 72 * 256, 10] {
+    for end in [WIDTH - 136, WIDTH - 116, 72 * 256, 10] {
         for samples in [1, 2, 4, 16] {
-            check(&behind_a_wall(end), timed(), samples);
+            check(&behind_a_wall(end, WIDTH), timed(), samples);
+        }
+    }
+}
+
+/// Depths are known for blocks of eight pixels, and here a draw reaches a pixel or less into the next one.
+#[test]
+fn what_looks_out_from_behind_a_wall_is_drawn() {
+    for beyond in [1, 100, 130, 250, 256] {
+        for samples in [1, 2, 4, 16] {
+            check(&behind_a_wall(48 * 256, 48 * 256 + beyond), timed(), samples);
         }
     }
 }
@@ -77,7 +89,7 @@ fn a_gap_in_a_wall_hides_nothing() {
 /// Of equal depths the smaller key is visible, also if boxes that are as near lie over it.
 #[test]
 fn a_draw_at_the_depth_of_what_is_in_front_stays() {
-    let mut draws = behind_a_wall(75 * 256);
+    let mut draws = behind_a_wall(WIDTH, WIDTH);
     let front = draws[0].triangles[0].depths;
     for (behind, object) in draws[2..].iter_mut().zip(100..) {
         behind.triangles.iter_mut().for_each(|flat| flat.depths = front);
